@@ -24,16 +24,15 @@ namespace mitre::base
   public:
     explicit UserError(std::string message)
       : message_(std::move(message))
-    {}
+    {
+    }
 
-    const char *
-    what() const noexcept override
+    const char *what() const noexcept override
     {
       return message_.c_str();
     }
 
-    void
-    print_info(std::ostream &out) const override
+    void print_info(std::ostream &out) const override
     {
       out << message_ << '\n';
     }

@@ -39,19 +39,16 @@ namespace mitre::base
     Expression(const std::string &expression, const std::string &what);
 
     /** The value at @p x and time @p t; UserError if it is not a finite number. */
-    double
-    value(const dealii::Point<dim> &x, const double t = 0.) const;
+    double value(const dealii::Point<dim> &x, const double t = 0.) const;
 
     /** Whether a condition such as "x < 4 && y > 1" holds, that is, value() is not 0. */
-    bool
-    holds(const dealii::Point<dim> &x, const double t = 0.) const;
+    bool holds(const dealii::Point<dim> &x, const double t = 0.) const;
 
-    const std::string &
-    text() const;
+    const std::string &text() const;
 
   private:
-    std::string                                  text_;
-    std::string                                  what_;
+    std::string text_;
+    std::string what_;
     std::shared_ptr<dealii::FunctionParser<dim>> parser_;
   };
 
@@ -68,15 +65,13 @@ namespace mitre::base
 
     TimeExpression(const std::string &expression, const std::string &what);
 
-    double
-    value(const double t) const;
+    double value(const double t) const;
 
-    const std::string &
-    text() const;
+    const std::string &text() const;
 
   private:
-    std::string                                text_;
-    std::string                                what_;
+    std::string text_;
+    std::string what_;
     std::shared_ptr<dealii::FunctionParser<1>> parser_;
   };
 } // namespace mitre::base

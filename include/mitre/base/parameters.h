@@ -20,14 +20,11 @@ namespace mitre::base
   class InputFile : public dealii::Patterns::PatternBase
   {
   public:
-    bool
-    match(const std::string &) const override;
+    bool match(const std::string &) const override;
 
-    std::string
-    description(const OutputStyle style = Machine) const override;
+    std::string description(const OutputStyle style = Machine) const override;
 
-    std::unique_ptr<dealii::Patterns::PatternBase>
-    clone() const override;
+    std::unique_ptr<dealii::Patterns::PatternBase> clone() const override;
   };
 
 
@@ -37,8 +34,7 @@ namespace mitre::base
    * else from the parent of that. Throws UserError, which lists the paths tried, if there
    * is no such file.
    */
-  std::string
-  find_file(const std::string &name, const std::string &parameter_file);
+  std::string find_file(const std::string &name, const std::string &parameter_file);
 
 
   /**
@@ -48,29 +44,27 @@ namespace mitre::base
    * What a file may contain depends on what it says: a list of parts is followed by one
    * subsection for each, with one for each of its materials, in which the parameters are
    * those of its law. So @p declare, which declares all parameters, uses declare_names()
-   * and declare_choice() for such entries: these return what the file says, and @p declare
-   * enters the subsections that follow from it and declares what belongs there.
+   * and declare_choice() for such entries: these return what the file says, and @p
+   * declare enters the subsections that follow from it and declares what belongs there.
    *
    * Throws UserError with the file and the line for text that is not understood, for a
    * parameter or subsection that has not been declared (with the nearest known name), for
    * a value that does not match its pattern, and for an input file that is not there.
    */
   void
-  parse_parameter_file(
-    dealii::ParameterHandler                              &prm,
-    const std::string                                     &file_name,
-    const std::function<void(dealii::ParameterHandler &)> &declare);
+  parse_parameter_file(dealii::ParameterHandler &prm,
+                       const std::string &file_name,
+                       const std::function<void(dealii::ParameterHandler &)> &declare);
 
   /**
    * The same for a text that is in memory; @p name stands for the file in messages and in
    * the search for input files.
    */
   void
-  parse_parameter_text(
-    dealii::ParameterHandler                              &prm,
-    const std::string                                     &text,
-    const std::string                                     &name,
-    const std::function<void(dealii::ParameterHandler &)> &declare);
+  parse_parameter_text(dealii::ParameterHandler &prm,
+                       const std::string &text,
+                       const std::string &name,
+                       const std::function<void(dealii::ParameterHandler &)> &declare);
 
 
   /**
@@ -79,57 +73,50 @@ namespace mitre::base
    * @p default_value if it gives none, if the value does not match @p pattern (which
    * parse_parameter_file() then reports) or if no parameter file is being parsed.
    */
-  std::string
-  declare_and_read(dealii::ParameterHandler            &prm,
-                   const std::string                   &entry,
-                   const std::string                   &default_value,
-                   const dealii::Patterns::PatternBase &pattern,
-                   const std::string                   &help);
+  std::string declare_and_read(dealii::ParameterHandler &prm,
+                               const std::string &entry,
+                               const std::string &default_value,
+                               const dealii::Patterns::PatternBase &pattern,
+                               const std::string &help);
 
-  /** declare_and_read() for a comma-separated list of names, each of which may occur once. */
-  std::vector<std::string>
-  declare_names(dealii::ParameterHandler &prm,
-                const std::string        &entry,
-                const std::string        &default_value,
-                const std::string        &help);
+  /** declare_and_read() for a comma-separated list of names, each of which may occur
+   * once. */
+  std::vector<std::string> declare_names(dealii::ParameterHandler &prm,
+                                         const std::string &entry,
+                                         const std::string &default_value,
+                                         const std::string &help);
 
   /** declare_and_read() for one of the given names, for example those of a registry. */
-  std::string
-  declare_choice(dealii::ParameterHandler       &prm,
-                 const std::string              &entry,
-                 const std::string              &default_value,
-                 const std::vector<std::string> &names,
-                 const std::string              &help);
+  std::string declare_choice(dealii::ParameterHandler &prm,
+                             const std::string &entry,
+                             const std::string &default_value,
+                             const std::vector<std::string> &names,
+                             const std::string &help);
 
 
   /** The members of a comma-separated list, without the blanks around them. */
-  std::vector<std::string>
-  parse_names(const std::string &text);
+  std::vector<std::string> parse_names(const std::string &text);
 
   /**
    * A number; UserError, which names @p what (the parameter or the file and line), if
    * @p text is anything but one finite number.
    */
-  double
-  parse_number(const std::string &text, const std::string &what);
+  double parse_number(const std::string &text, const std::string &what);
 
   /** The numbers of a comma-separated list. */
-  std::vector<double>
-  parse_numbers(const std::string &text, const std::string &what);
+  std::vector<double> parse_numbers(const std::string &text, const std::string &what);
 
   /** The integers of a comma-separated list. */
-  std::vector<int>
-  parse_integers(const std::string &text, const std::string &what);
+  std::vector<int> parse_integers(const std::string &text, const std::string &what);
 
   /** A point from "1, 2, 3"; UserError unless there are exactly dim numbers. */
   template <int dim>
-  dealii::Point<dim>
-  parse_point(const std::string &text, const std::string &what);
+  dealii::Point<dim> parse_point(const std::string &text, const std::string &what);
 
   /** The points of a list such as "0, 0, 0; 1, 2, 3". */
   template <int dim>
-  std::vector<dealii::Point<dim>>
-  parse_points(const std::string &text, const std::string &what);
+  std::vector<dealii::Point<dim>> parse_points(const std::string &text,
+                                               const std::string &what);
 } // namespace mitre::base
 
 #endif

@@ -55,7 +55,8 @@ namespace mitre::base
      */
     explicit PluginRegistry(std::string kind)
       : kind_(std::move(kind))
-    {}
+    {
+    }
 
     /**
      * Add a plugin that has no class of its own.
@@ -65,15 +66,14 @@ namespace mitre::base
      * @param factory makes one
      * @param declare declares its parameters in the subsection that has been entered
      */
-    void
-    add(const std::string &name,
-        const std::string &description,
-        Factory            factory,
-        DeclareParameters  declare)
+    void add(const std::string &name,
+             const std::string &description,
+             Factory factory,
+             DeclareParameters declare)
     {
-      AssertThrow(entries_.count(name) == 0,
-                  dealii::ExcMessage("The " + kind_ + " '" + name +
-                                     "' is registered twice."));
+      AssertThrow(
+        entries_.count(name) == 0,
+        dealii::ExcMessage("The " + kind_ + " '" + name + "' is registered twice."));
       names_.push_back(name);
       entries_[name] = {description, std::move(factory), std::move(declare)};
     }
@@ -83,8 +83,7 @@ namespace mitre::base
      * function <code>declare_parameters(dealii::ParameterHandler &)</code>.
      */
     template <typename Plugin>
-    void
-    add(const std::string &name, const std::string &description)
+    void add(const std::string &name, const std::string &description)
     {
       add(
         name,
@@ -96,33 +95,28 @@ namespace mitre::base
     }
 
     /** The names in the order in which they were added. */
-    const std::vector<std::string> &
-    names() const
+    const std::vector<std::string> &names() const
     {
       return names_;
     }
 
-    bool
-    contains(const std::string &name) const
+    bool contains(const std::string &name) const
     {
       return entries_.count(name) != 0;
     }
 
-    const std::string &
-    kind() const
+    const std::string &kind() const
     {
       return kind_;
     }
 
-    const std::string &
-    description(const std::string &name) const
+    const std::string &description(const std::string &name) const
     {
       return find(name).description;
     }
 
     /** The names as dealii::Patterns::Selection takes them: "a|b|c". */
-    std::string
-    pattern() const
+    std::string pattern() const
     {
       std::string text;
       for (const std::string &name : names_)
@@ -131,8 +125,7 @@ namespace mitre::base
     }
 
     /** The names and descriptions, one a line, for the help text of a parameter. */
-    std::string
-    help() const
+    std::string help() const
     {
       std::string text;
       for (const std::string &name : names_)
@@ -144,8 +137,8 @@ namespace mitre::base
      * Make the plugin @p name. Throws UserError, which lists the known names and the
      * nearest one, if there is none of that name.
      */
-    std::unique_ptr<Interface>
-    create(const std::string &name, Arguments... arguments) const
+    std::unique_ptr<Interface> create(const std::string &name,
+                                      Arguments... arguments) const
     {
       return find(name).factory(arguments...);
     }
@@ -154,8 +147,7 @@ namespace mitre::base
      * Declare the parameters of the plugin @p name in the subsection that has been
      * entered. Throws as create() does.
      */
-    void
-    declare_parameters(const std::string &name, dealii::ParameterHandler &prm) const
+    void declare_parameters(const std::string &name, dealii::ParameterHandler &prm) const
     {
       find(name).declare(prm);
     }
@@ -163,13 +155,12 @@ namespace mitre::base
   private:
     struct Entry
     {
-      std::string       description;
-      Factory           factory;
+      std::string description;
+      Factory factory;
       DeclareParameters declare;
     };
 
-    const Entry &
-    find(const std::string &name) const
+    const Entry &find(const std::string &name) const
     {
       const auto entry = entries_.find(name);
       AssertThrow(entry != entries_.end(),
@@ -178,8 +169,8 @@ namespace mitre::base
       return entry->second;
     }
 
-    std::string                  kind_;
-    std::vector<std::string>     names_;
+    std::string kind_;
+    std::vector<std::string> names_;
     std::map<std::string, Entry> entries_;
   };
 } // namespace mitre::base

@@ -31,11 +31,11 @@ namespace mitre::base
      * @param unit its unit
      * @param clock seconds since any moment, increasing; wall time by default
      */
-    Progress(std::ostream           &out,
-             const double            begin,
-             const double            end,
-             const std::string      &unit,
-             const Style             style = Style::automatic,
+    Progress(std::ostream &out,
+             const double begin,
+             const double end,
+             const std::string &unit,
+             const Style style             = Style::automatic,
              std::function<double()> clock = {});
 
     /**
@@ -44,46 +44,40 @@ namespace mitre::base
      *
      * @param note a few words more, say "flow 312 mL/s"
      */
-    void
-    update(const double value, const std::string &note = "");
+    void update(const double value, const std::string &note = "");
 
     /** Say so in any case and end the line. Nothing more if it has been said before. */
-    void
-    finish(const std::string &note = "");
+    void finish(const std::string &note = "");
 
     /**
      * Leave the line of the bar, so that other output does not run into it; the next
      * update() draws it anew.
      */
-    void
-    interrupt();
+    void interrupt();
 
     /** Seconds to go by the present pace; infinite before there is one. */
-    double
-    seconds_left() const;
+    double seconds_left() const;
 
   private:
-    void
-    write(const std::string &note);
+    void write(const std::string &note);
 
-    std::ostream           &out_;
-    double                  begin_;
-    double                  end_;
-    std::string             unit_;
-    bool                    bar_;
+    std::ostream &out_;
+    double begin_;
+    double end_;
+    std::string unit_;
+    bool bar_;
     std::function<double()> clock_;
-    double                  value_;
-    double                  start_clock_;
-    double                  last_clock_;
-    double                  last_written_;
-    double                  pace_; // seconds per unit of the quantity
-    std::size_t             width_written_;
-    bool                    finished_;
+    double value_;
+    double start_clock_;
+    double last_clock_;
+    double last_written_;
+    double pace_; // seconds per unit of the quantity
+    std::size_t width_written_;
+    bool finished_;
   };
 
   /** "45 s", "3 min 05 s", "2 h 07 min", "3 d 4 h"; "?" if @p seconds is not finite. */
-  std::string
-  format_duration(const double seconds);
+  std::string format_duration(const double seconds);
 } // namespace mitre::base
 
 #endif

@@ -44,42 +44,34 @@ namespace mitre::base
     TimeTable(const std::string &file_name, const Extension extension);
 
     /** The names of the value columns (without time), in the order of the file. */
-    const std::vector<std::string> &
-    column_names() const;
+    const std::vector<std::string> &column_names() const;
 
     /**
      * The index of the value column @p name; UserError, which lists the names there are,
      * if there is none.
      */
-    unsigned int
-    column(const std::string &name) const;
+    unsigned int column(const std::string &name) const;
 
     /** The value of a column at any time, in cm, g, s. */
-    double
-    value(const unsigned int column, const double t) const;
+    double value(const unsigned int column, const double t) const;
 
     /** Its derivative in time. */
-    double
-    derivative(const unsigned int column, const double t) const;
+    double derivative(const unsigned int column, const double t) const;
 
-    double
-    start_time() const;
+    double start_time() const;
 
-    double
-    end_time() const;
+    double end_time() const;
 
   private:
     /** Where time @p t lies: the interval, and the time since its beginning. */
-    std::pair<unsigned int, double>
-    locate(const double t) const;
+    std::pair<unsigned int, double> locate(const double t) const;
 
-    void
-    compute_slopes();
+    void compute_slopes();
 
-    std::string                      file_name_;
-    Extension                        extension_;
-    std::vector<std::string>         names_;
-    std::vector<double>              times_;
+    std::string file_name_;
+    Extension extension_;
+    std::vector<std::string> names_;
+    std::vector<double> times_;
     std::vector<std::vector<double>> values_; // [column][line]
     std::vector<std::vector<double>> slopes_; // [column][line]
   };

@@ -14,12 +14,10 @@ namespace mitre::base
    * them (dyn, dyn/cm^2, cm^3): unit_in_cgs("mmHg") = 1333.22, unit_in_cgs("mm") = 0.1.
    * Throws UserError, which lists the known units, for any other name.
    */
-  double
-  unit_in_cgs(const std::string &unit);
+  double unit_in_cgs(const std::string &unit);
 
   /** The names that unit_in_cgs() knows. */
-  std::vector<std::string>
-  known_units();
+  std::vector<std::string> known_units();
 } // namespace mitre::base
 
 #endif

@@ -1,0 +1,251 @@
+#include <deal.II/base/exceptions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include <mitre/base/exceptions.h>
+#include <mitre/base/nearest_name.h>
+#include <mitre/base/parameters.h>
+#include <mitre/base/time_table.h>
+#include <mitre/base/units.h>
+
+namespace mitre::base
+{
+  namespace
+  {
+    std::vector<std::string> split_fields(const std::string &line)
+    {
+      std::vector<std::string> fields(1);
+      for (const char c : line)
+        if (c == ',')
+          fields.emplace_back();
+        else
+          fields.back() += c;
+      for (std::string &field : fields)
+        {
+          const auto begin = field.find_first_not_of(" \t\r");
+          const auto end   = field.find_last_not_of(" \t\r");
+          field = begin == std::string::npos ? "" : field.substr(begin, end - begin + 1);
+        }
+      return fields;
+    }
+
+
+    // Takes "name [unit]" apart.
+    std::pair<std::string, std::string> split_heading(const std::string &heading,
+                                                      const std::string &place)
+    {
+      const auto open = heading.rfind('[');
+      AssertThrow(open != std::string::npos && open > 0 && heading.back() == ']',
+                  UserError(place + "the column heading '" + heading +
+                            "' is not a name and a unit, such as 'time [s]'."));
+      const auto end = heading.find_last_not_of(" \t", open - 1);
+      AssertThrow(end != std::string::npos,
+                  UserError(place + "the column heading '" + heading + "' has no name."));
+      return {heading.substr(0, end + 1),
+              heading.substr(open + 1, heading.size() - open - 2)};
+    }
+
+
+    // Slope at a point between two intervals with lengths h and mean slopes s: a weighted
+    // harmonic mean if the slopes have the same sign, else 0.
+    double limited_slope(const double h_left,
+                         const double s_left,
+                         const double h_right,
+                         const double s_right)
+    {
+      if (s_left * s_right <= 0.)
+        return 0.;
+      const double alpha = (h_left + 2. * h_right) / (3. * (h_left + h_right));
+      return s_left * s_right / (alpha * s_right + (1. - alpha) * s_left);
+    }
+  } // namespace
+
+
+  TimeTable::TimeTable(const std::string &file_name, const Extension extension)
+    : file_name_(file_name)
+    , extension_(extension)
+  {
+    std::ifstream file(file_name);
+    AssertThrow(file, UserError("Cannot open the table '" + file_name + "'."));
+
+    std::vector<double> factors;
+    std::string line;
+    unsigned int line_number = 0;
+    while (std::getline(file, line))
+      {
+        ++line_number;
+        const std::string place = file_name + ":" + std::to_string(line_number) + ": ";
+        const auto begin        = line.find_first_not_of(" \t\r");
+        if (begin == std::string::npos || line[begin] == '#')
+          continue;
+
+        const std::vector<std::string> fields = split_fields(line);
+        if (factors.empty())
+          {
+            AssertThrow(fields.size() > 1,
+                        UserError(place +
+                                  "expected the headings of at least two columns, "
+                                  "such as 'time [s],pressure [mmHg]'; found '" +
+                                  line + "'."));
+            for (unsigned int i = 0; i < fields.size(); ++i)
+              {
+                const auto [name, unit] = split_heading(fields[i], place);
+                try
+                  {
+                    factors.push_back(unit_in_cgs(unit));
+                  }
+                catch (const UserError &error)
+                  {
+                    throw UserError(place + error.what());
+                  }
+                AssertThrow(i > 0 || unit == "s" || unit == "ms",
+                            UserError(place +
+                                      "the first column must be time, in [s] or "
+                                      "[ms]; found '" +
+                                      fields[i] + "'."));
+                if (i > 0)
+                  names_.push_back(name);
+              }
+            values_.resize(names_.size());
+            continue;
+          }
+
+        AssertThrow(fields.size() == factors.size(),
+                    UserError(place + "found " + std::to_string(fields.size()) +
+                              " columns, but the first line names " +
+                              std::to_string(factors.size()) + "."));
+        for (unsigned int i = 0; i < fields.size(); ++i)
+          {
+            const double value =
+              parse_number(fields[i], place + "column " + std::to_string(i + 1)) *
+              factors[i];
+            if (i > 0)
+              values_[i - 1].push_back(value);
+            else
+              {
+                AssertThrow(times_.empty() || value > times_.back(),
+                            UserError(place + "the time " + fields[i] +
+                                      " is not later than the one before it."));
+                times_.push_back(value);
+              }
+          }
+      }
+    AssertThrow(times_.size() >= 2,
+                UserError(file_name +
+                          ": a table needs a line of headings and at least two "
+                          "lines of numbers; found " +
+                          std::to_string(times_.size()) + "."));
+
+    if (extension == Extension::periodic)
+      for (unsigned int c = 0; c < names_.size(); ++c)
+        {
+          const auto [low, high] =
+            std::minmax_element(values_[c].begin(), values_[c].end());
+          AssertThrow(std::abs(values_[c].back() - values_[c].front()) <=
+                        1e-9 * std::max(std::abs(*low), std::abs(*high)),
+                      UserError(file_name + ": the column '" + names_[c] +
+                                "' is to be repeated in time, but its first and its last "
+                                "value differ."));
+        }
+    compute_slopes();
+  }
+
+
+  void TimeTable::compute_slopes()
+  {
+    const unsigned int n = times_.size();
+    slopes_.assign(values_.size(), std::vector<double>(n, 0.));
+    for (unsigned int c = 0; c < values_.size(); ++c)
+      {
+        const auto length = [&](const unsigned int i) {
+          return times_[i + 1] - times_[i];
+        };
+        const auto mean_slope = [&](const unsigned int i) {
+          return (values_[c][i + 1] - values_[c][i]) / length(i);
+        };
+        for (unsigned int i = 1; i + 1 < n; ++i)
+          slopes_[c][i] =
+            limited_slope(length(i - 1), mean_slope(i - 1), length(i), mean_slope(i));
+        if (extension_ == Extension::periodic)
+          slopes_[c][0] = slopes_[c][n - 1] =
+            limited_slope(length(n - 2), mean_slope(n - 2), length(0), mean_slope(0));
+        // Where the table is clamped its ends are level, so that the derivative is
+        // continuous there, too.
+      }
+  }
+
+
+  const std::vector<std::string> &TimeTable::column_names() const
+  {
+    return names_;
+  }
+
+
+  unsigned int TimeTable::column(const std::string &name) const
+  {
+    const auto found = std::find(names_.begin(), names_.end(), name);
+    AssertThrow(found != names_.end(),
+                UserError(file_name_ + ": there is no column '" + name + "'. " +
+                          suggest_name(name, names_)));
+    return found - names_.begin();
+  }
+
+
+  std::pair<unsigned int, double> TimeTable::locate(const double t) const
+  {
+    double place = t;
+    if (extension_ == Extension::periodic)
+      {
+        const double period = times_.back() - times_.front();
+        place -= period * std::floor((t - times_.front()) / period);
+      }
+    place            = std::clamp(place, times_.front(), times_.back());
+    const auto after = std::upper_bound(times_.begin() + 1, times_.end() - 1, place);
+    const unsigned int interval = after - times_.begin() - 1;
+    return {interval, place - times_[interval]};
+  }
+
+
+  double TimeTable::value(const unsigned int column, const double t) const
+  {
+    AssertIndexRange(column, values_.size());
+    const auto [i, elapsed] = locate(t);
+    const double h          = times_[i + 1] - times_[i];
+    const double s          = elapsed / h;
+    const auto &values      = values_[column];
+    const auto &slopes      = slopes_[column];
+    // Hermite's cubic
+    return values[i] * (1. + 2. * s) * (1. - s) * (1. - s) +
+           values[i + 1] * s * s * (3. - 2. * s) +
+           h * s * (1. - s) * (slopes[i] * (1. - s) - slopes[i + 1] * s);
+  }
+
+
+  double TimeTable::derivative(const unsigned int column, const double t) const
+  {
+    AssertIndexRange(column, values_.size());
+    if (extension_ == Extension::clamped && (t < times_.front() || t > times_.back()))
+      return 0.;
+    const auto [i, elapsed] = locate(t);
+    const double h          = times_[i + 1] - times_[i];
+    const double s          = elapsed / h;
+    const auto &values      = values_[column];
+    const auto &slopes      = slopes_[column];
+    return (values[i + 1] - values[i]) * 6. * s * (1. - s) / h +
+           slopes[i] * (1. - s) * (1. - 3. * s) + slopes[i + 1] * s * (3. * s - 2.);
+  }
+
+
+  double TimeTable::start_time() const
+  {
+    return times_.front();
+  }
+
+
+  double TimeTable::end_time() const
+  {
+    return times_.back();
+  }
+} // namespace mitre::base
