@@ -1,0 +1,231 @@
+#ifndef mitre_structure_body_h
+#define mitre_structure_body_h
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/lac/la_parallel_vector.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <mitre/base/expression.h>
+#include <mitre/structure/constitutive_laws/constitutive_law.h>
+#include <mitre/structure/constraints/constraint.h>
+#include <mitre/structure/elastic_force.h>
+#include <mitre/structure/mass_matrix.h>
+#include <mitre/structure/mesh.h>
+#include <mitre/structure/node_numbering.h>
+#include <mitre/structure/reference_element.h>
+
+namespace mitre::structure
+{
+  /**
+   * What the elements with some material ids are made of.
+   */
+  template <int dim>
+  struct Material
+  {
+    std::string name;
+    std::vector<unsigned int> ids;
+    std::shared_ptr<ConstitutiveLaw<dim>> law;
+
+    /// Multiplies energy and stress.
+    base::TimeExpression time_factor;
+  };
+
+
+  template <int dim>
+  struct NamedConstraint
+  {
+    std::string name;
+    std::shared_ptr<Constraint<dim>> constraint;
+  };
+
+
+  /**
+   * What a parameter file says about a part, in <code>subsection Part NAME</code>.
+   */
+  template <int dim>
+  struct BodyParameters
+  {
+    std::string name;
+    std::string mesh_file;
+    std::vector<Material<dim>> materials;
+    std::vector<NamedConstraint<dim>> constraints;
+    bool consistent_mass  = true;
+    double mass_tolerance = 1e-10;
+
+    static void declare_parameters(dealii::ParameterHandler &prm);
+
+    /// @param name of the part. Throws base::UserError, which names it.
+    void parse_parameters(dealii::ParameterHandler &prm, const std::string &name);
+  };
+
+
+  /**
+   * A deformable body that a finite element mesh describes: its reference configuration,
+   * materials and constraints, and which rank owns which of its nodes.
+   *
+   * Fields on its nodes (positions X [cm], velocities, force densities) are distributed
+   * vectors without ghost entries, made by initialize_vector(), with component c of node
+   * number i at dim * i + c. Nodes are numbered so that each rank's are contiguous; the
+   * numbering changes in distribute(), which carries the vectors along.
+   */
+  template <int dim>
+  class Body
+  {
+  public:
+    /// The ranks that own points; the same list of points is given on all ranks, and the
+    /// same result expected. numbers::invalid_unsigned_int: outside of the box.
+    using OwnersOfPoints =
+      std::function<std::vector<unsigned int>(const std::vector<dealii::Point<dim>> &)>;
+
+    /**
+     * The nodes are dealt out in equal parts until distribute() is called. Throws
+     * base::UserError if a material id of the mesh has no material or two, a material
+     * has no elements, an element is inverted or a law lacks its fibres.
+     */
+    Body(BodyParameters<dim> parameters, Mesh<dim> mesh, const MPI_Comm communicator);
+
+    Body(const Body &)            = delete;
+    Body &operator=(const Body &) = delete;
+
+    const std::string &name() const
+    {
+      return parameters.name;
+    }
+
+    const Mesh<dim> &mesh() const
+    {
+      return mesh_;
+    }
+
+    const ReferenceElement<dim> &reference_element() const
+    {
+      return reference_element_;
+    }
+
+    const NodeNumbering &numbering() const
+    {
+      return numbering_;
+    }
+
+    MPI_Comm communicator() const
+    {
+      return numbering_.communicator;
+    }
+
+    /// The elements that touch owned nodes.
+    const ElementSet<dim> &elements() const
+    {
+      return elements_;
+    }
+
+    const MassMatrix<dim> &mass_matrix() const
+    {
+      return mass_matrix_;
+    }
+
+    const std::vector<NamedConstraint<dim>> &constraints() const
+    {
+      return parameters.constraints;
+    }
+
+    /**
+     * Give each node to the rank that @p owners_of names for its position in @p X and
+     * rebuild all that depends on it. @p X and @p others, vectors of this body, keep
+     * their values at each node. Collective. Throws base::UserError, which names part and
+     * node, if a node is outside of the box.
+     */
+    void distribute(const OwnersOfPoints &owners_of,
+                    VectorType &X,
+                    const std::vector<VectorType *> &others = {});
+
+    /// Make @p v a vector of this body with all entries 0.
+    void initialize_vector(VectorType &v) const;
+
+    /// The reference positions as a vector of this body.
+    void set_to_reference_positions(VectorType &X) const;
+
+    /**
+     * All entries of a vector of this body on every rank, by node of the mesh and
+     * component. Collective; costs one reduction of all nodes.
+     */
+    std::vector<double> to_mesh_order(const VectorType &v) const;
+
+    /// The inverse of to_mesh_order().
+    void from_mesh_order(const std::vector<double> &values, VectorType &v) const;
+
+    /**
+     * Nodal elastic forces @f$G_a = -\int_U P\,\nabla_s\phi_a\,ds@f$ [dyn]. Collective.
+     * Throws base::UserError on all ranks if an element is inverted; it names part,
+     * element, centroid and time.
+     */
+    void compute_elastic_force(const VectorType &X, const double t, VectorType &G) const;
+
+    /**
+     * Nodal values of the Lagrangian force density per reference volume [dyn/cm^dim]:
+     * elastic, projected by the mass matrix (2.36), plus that of the constraints. The
+     * elastic part of the previous call serves as start of the iteration.
+     */
+    void compute_force_density(const VectorType &X,
+                               const VectorType &U,
+                               const double t,
+                               VectorType &F);
+
+    /**
+     * Solve M x = b, with the consistent or lumped mass matrix as the parameters say;
+     * @p x holds a first guess. Returns the number of iterations.
+     */
+    unsigned int project(VectorType &x, const VectorType &b) const;
+
+    /// @f$\int_U F\, ds@f$ [dyn] of a nodal force density. Collective.
+    dealii::Tensor<1, dim> compute_total(const VectorType &F) const;
+
+    /// Strain energy [erg in 3D]. Collective.
+    double compute_elastic_energy(const VectorType &X, const double t) const;
+
+    /// For each constraint, the largest distance of a node from its target [cm].
+    /// Collective.
+    std::vector<double> compute_constraint_displacements(const VectorType &X,
+                                                         const double t) const;
+
+    /// Volume of the deformed elements over that of the reference elements: smallest and
+    /// largest. Collective.
+    std::pair<double, double> compute_volume_ratios(const VectorType &X) const;
+
+  private:
+    void check_materials() const;
+
+    void setup(const std::vector<unsigned int> &owners);
+
+    /// Copy of @p X in which ghost nodes are known too.
+    const double *import_positions(const VectorType &X) const;
+
+    std::vector<MaterialRange<dim>> material_ranges(const double t) const;
+
+    BodyParameters<dim> parameters;
+    const Mesh<dim> mesh_;
+    const ReferenceElement<dim> reference_element_;
+    NodeNumbering numbering_;
+    ElementSet<dim> elements_;
+    ReferenceCache<dim> cache;
+    MassMatrix<dim> mass_matrix_;
+
+    /// Runs of local elements and the index of their material.
+    struct Range
+    {
+      unsigned int begin, end, material;
+    };
+    std::vector<Range> ranges;
+
+    mutable VectorType ghosted_positions;
+    mutable std::vector<double> local_forces;
+    VectorType elastic_force, elastic_density;
+  };
+} // namespace mitre::structure
+
+#endif

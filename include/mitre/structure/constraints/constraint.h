@@ -1,0 +1,50 @@
+#ifndef mitre_structure_constraints_constraint_h
+#define mitre_structure_constraints_constraint_h
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/lac/la_parallel_vector.h>
+
+#include <string>
+
+#include <mitre/structure/node_numbering.h>
+
+namespace mitre::structure
+{
+  using VectorType = dealii::LinearAlgebra::distributed::Vector<double>;
+
+
+  /**
+   * A force that keeps nodes of a body near where they shall be.
+   */
+  template <int dim>
+  class Constraint
+  {
+  public:
+    virtual ~Constraint() = default;
+
+    /// @param what names the constraint in messages: "Part tube, constraint hold"
+    virtual void parse_parameters(dealii::ParameterHandler &prm,
+                                  const std::string &what) = 0;
+
+    /// Find the owned nodes on which the constraint acts; called again when the nodes
+    /// have been distributed anew.
+    virtual void reinit(const Mesh<dim> &mesh, const ElementSet<dim> &elements) = 0;
+
+    /// How many owned nodes it acts on.
+    virtual unsigned int n_nodes() const = 0;
+
+    /**
+     * Add to the nodal force density @p F per reference volume [dyn/cm^dim] at node
+     * positions @p X [cm] and velocities @p U [cm/s] at time @p t [s].
+     */
+    virtual void add_force_density(const VectorType &X,
+                                   const VectorType &U,
+                                   const double t,
+                                   VectorType &F) const = 0;
+
+    /// The largest distance of an owned node from where it shall be [cm].
+    virtual double largest_displacement(const VectorType &X, const double t) const = 0;
+  };
+} // namespace mitre::structure
+
+#endif

@@ -1,0 +1,20 @@
+#ifndef mitre_structure_library_h
+#define mitre_structure_library_h
+
+#include <mitre/base/plugin_registry.h>
+#include <mitre/structure/constitutive_laws/constitutive_law.h>
+#include <mitre/structure/constraints/constraint.h>
+
+namespace mitre::structure
+{
+  /// The constitutive laws by the names that parameter files use.
+  template <int dim>
+  const base::PluginRegistry<ConstitutiveLaw<dim>> &constitutive_laws();
+
+
+  /// The constraints by the names that parameter files use.
+  template <int dim>
+  const base::PluginRegistry<Constraint<dim>> &constraints();
+} // namespace mitre::structure
+
+#endif

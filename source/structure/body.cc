@@ -1,0 +1,507 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include <mitre/base/exceptions.h>
+#include <mitre/base/parameters.h>
+#include <mitre/structure/body.h>
+#include <mitre/structure/library.h>
+
+namespace mitre::structure
+{
+  template <int dim>
+  void BodyParameters<dim>::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    prm.declare_entry("Mesh file",
+                      "",
+                      base::InputFile(),
+                      "Mesh of the part in its reference configuration [cm], as gmsh "
+                      "writes it (.msh, ASCII), elements of one shape: tetrahedra or "
+                      "hexahedra, in 2D triangles or quadrilaterals.");
+    prm.declare_entry("Mass matrix",
+                      "consistent",
+                      dealii::Patterns::Selection("consistent|lumped"),
+                      "Matrix of the L2 projections of forces and velocities.");
+    prm.declare_entry("Mass solver tolerance",
+                      "1e-10",
+                      dealii::Patterns::Double(1e-15, 1e-2),
+                      "Residual at which the solution with the consistent mass matrix "
+                      "stops, relative to the right hand side.");
+
+    for (const std::string &name :
+         base::declare_names(prm,
+                             "Materials",
+                             "",
+                             "Names of the materials; each is described in 'subsection "
+                             "Material NAME'."))
+      {
+        prm.enter_subsection("Material " + name);
+        prm.declare_entry("Material id",
+                          "0",
+                          dealii::Patterns::List(dealii::Patterns::Integer(0), 1),
+                          "Physical ids of the elements of this material in the mesh.");
+        prm.declare_entry("Time factor",
+                          "1",
+                          dealii::Patterns::Anything(),
+                          "Expression of the time t [s] that multiplies the stress.");
+        const std::string law =
+          base::declare_choice(prm,
+                               "Law",
+                               constitutive_laws<dim>().names().front(),
+                               constitutive_laws<dim>().names(),
+                               "Constitutive law; its constants are in the subsection of "
+                               "that name.\n" +
+                                 constitutive_laws<dim>().help());
+        prm.enter_subsection(law);
+        constitutive_laws<dim>().declare_parameters(law, prm);
+        prm.leave_subsection();
+        prm.leave_subsection();
+      }
+
+    for (const std::string &name :
+         base::declare_names(prm,
+                             "Constraints",
+                             "",
+                             "Names of the constraints; each is described in 'subsection "
+                             "Constraint NAME'."))
+      {
+        prm.enter_subsection("Constraint " + name);
+        const std::string type = base::declare_choice(
+          prm,
+          "Type",
+          structure::constraints<dim>().names().front(),
+          structure::constraints<dim>().names(),
+          "Kind of constraint.\n" + structure::constraints<dim>().help());
+        structure::constraints<dim>().declare_parameters(type, prm);
+        prm.leave_subsection();
+      }
+  }
+
+
+  template <int dim>
+  void BodyParameters<dim>::parse_parameters(dealii::ParameterHandler &prm,
+                                             const std::string &part)
+  {
+    name            = part;
+    mesh_file       = prm.get("Mesh file");
+    consistent_mass = prm.get("Mass matrix") == "consistent";
+    mass_tolerance  = prm.get_double("Mass solver tolerance");
+
+    materials.clear();
+    for (const std::string &material_name : base::parse_names(prm.get("Materials")))
+      {
+        const std::string what = "Part " + part + ", material " + material_name;
+
+        prm.enter_subsection("Material " + material_name);
+        Material<dim> material;
+        material.name = material_name;
+        for (const int id :
+             base::parse_integers(prm.get("Material id"), what + ", Material id"))
+          material.ids.push_back(id);
+        material.time_factor =
+          base::TimeExpression(prm.get("Time factor"), what + ", Time factor");
+
+        const std::string law = prm.get("Law");
+        AssertThrow(
+          constitutive_laws<dim>().contains(law),
+          base::UserError(what + ": there is no constitutive law '" + law + "'. " +
+                          base::suggest_name(law, constitutive_laws<dim>().names())));
+        material.law = constitutive_laws<dim>().create(law);
+        prm.enter_subsection(law);
+        material.law->parse_parameters(prm);
+        prm.leave_subsection();
+        prm.leave_subsection();
+        materials.push_back(std::move(material));
+      }
+
+    constraints.clear();
+    for (const std::string &constraint_name : base::parse_names(prm.get("Constraints")))
+      {
+        const std::string what = "Part " + part + ", constraint " + constraint_name;
+
+        prm.enter_subsection("Constraint " + constraint_name);
+        constraints.push_back(
+          {constraint_name, structure::constraints<dim>().create(prm.get("Type"))});
+        constraints.back().constraint->parse_parameters(prm, what);
+        prm.leave_subsection();
+      }
+  }
+
+
+  template <int dim>
+  Body<dim>::Body(BodyParameters<dim> parameters_,
+                  Mesh<dim> mesh,
+                  const MPI_Comm communicator)
+    : parameters(std::move(parameters_))
+    , mesh_(std::move(mesh))
+    , reference_element_(mesh_.shape, mesh_.degree)
+  {
+    AssertThrow(mesh_.n_elements() > 0,
+                base::UserError("Part " + name() + ": the mesh " + mesh_.source +
+                                " has no elements."));
+    check_materials();
+    try
+      {
+        check_orientation(mesh_);
+      }
+    catch (const base::UserError &error)
+      {
+        throw base::UserError("Part " + name() + ": " + error.what());
+      }
+
+    const unsigned int n_ranks  = dealii::Utilities::MPI::n_mpi_processes(communicator);
+    const std::uint64_t n_nodes = mesh_.nodes.size();
+    std::vector<unsigned int> owners(n_nodes);
+    for (std::uint64_t i = 0; i < n_nodes; ++i)
+      owners[i] = i * n_ranks / n_nodes;
+    numbering_.communicator = communicator;
+    setup(owners);
+
+    for (const NamedConstraint<dim> &c : parameters.constraints)
+      AssertThrow(dealii::Utilities::MPI::sum(c.constraint->n_nodes(), communicator) > 0,
+                  base::UserError("Part " + name() + ", constraint " + c.name +
+                                  ": no node of " + mesh_.source +
+                                  " is in its region and material ids."));
+  }
+
+
+  template <int dim>
+  void Body<dim>::check_materials() const
+  {
+    const std::string prefix = "Part " + name() + ": ";
+
+    std::map<unsigned int, unsigned int> first_element;
+    for (unsigned int e = 0; e < mesh_.n_elements(); ++e)
+      first_element.emplace(mesh_.material_ids[e], e);
+
+    std::map<unsigned int, const Material<dim> *> material_of_id;
+    for (const Material<dim> &material : parameters.materials)
+      for (const unsigned int id : material.ids)
+        {
+          const auto added = material_of_id.emplace(id, &material);
+          AssertThrow(added.second,
+                      base::UserError(prefix + "the material id " + std::to_string(id) +
+                                      " belongs to two materials, '" +
+                                      added.first->second->name + "' and '" +
+                                      material.name + "'."));
+
+          if (first_element.count(id) == 0)
+            {
+              std::string known;
+              for (const auto &[mesh_id, e] : first_element)
+                known += (known.empty() ? "" : ", ") + std::to_string(mesh_id);
+              throw base::UserError(prefix + "the material '" + material.name +
+                                    "' has the id " + std::to_string(id) +
+                                    ", but the mesh " + mesh_.source +
+                                    " has no element with it. Its ids: " + known + ".");
+            }
+          AssertThrow(material.law->n_fibre_families() <= mesh_.n_fibre_families(),
+                      base::UserError(
+                        prefix + "the law of the material '" + material.name +
+                        "' needs " + std::to_string(material.law->n_fibre_families()) +
+                        " fibre direction(s) an element, but " + mesh_.source + " has " +
+                        std::to_string(mesh_.n_fibre_families()) +
+                        ": an $ElementData section \"fibre\" is expected there."));
+        }
+
+    for (const auto &[id, e] : first_element)
+      {
+        const auto material = material_of_id.find(id);
+        AssertThrow(material != material_of_id.end(),
+                    base::UserError(prefix + "no material has the id " +
+                                    std::to_string(id) + " of the " +
+                                    mesh_.describe_element(e) + "."));
+      }
+    for (unsigned int e = 0; e < mesh_.n_elements(); ++e)
+      {
+        const unsigned int needed =
+          material_of_id[mesh_.material_ids[e]]->law->n_fibre_families();
+        for (unsigned int f = 0; f < needed; ++f)
+          AssertThrow(std::abs(mesh_.fibres[f][e].norm() - 1) < 1e-6,
+                      base::UserError(prefix + "the " + mesh_.describe_element(e) +
+                                      " has no fibre direction, which the law of its "
+                                      "material needs."));
+      }
+  }
+
+
+  template <int dim>
+  void Body<dim>::setup(const std::vector<unsigned int> &owners)
+  {
+    numbering_ = NodeNumbering(owners, numbering_.communicator);
+    elements_ =
+      ElementSet<dim>(mesh_, numbering_, find_elements_of_owned_nodes(mesh_, numbering_));
+    cache.reinit(mesh_, elements_, reference_element_);
+    mass_matrix_.reinit(mesh_, elements_, reference_element_);
+
+    ranges.clear();
+    for (unsigned int i = 0; i < elements_.n_elements(); ++i)
+      {
+        const unsigned int id = mesh_.material_ids[elements_.element(i)];
+        unsigned int material = 0;
+        while (std::find(parameters.materials[material].ids.begin(),
+                         parameters.materials[material].ids.end(),
+                         id) == parameters.materials[material].ids.end())
+          ++material;
+        if (ranges.empty() || ranges.back().material != material)
+          ranges.push_back({i, i, material});
+        ranges.back().end = i + 1;
+      }
+
+    for (const NamedConstraint<dim> &c : parameters.constraints)
+      c.constraint->reinit(mesh_, elements_);
+
+    ghosted_positions.reinit(elements_.partitioner());
+    local_forces.assign(elements_.n_nodes() * dim, 0.);
+    initialize_vector(elastic_force);
+    initialize_vector(elastic_density);
+  }
+
+
+  template <int dim>
+  void Body<dim>::distribute(const OwnersOfPoints &owners_of,
+                             VectorType &X,
+                             const std::vector<VectorType *> &others)
+  {
+    // Step 1: the new owners.
+    const std::vector<double> positions = to_mesh_order(X);
+    std::vector<dealii::Point<dim>> points(mesh_.nodes.size());
+    for (unsigned int i = 0; i < points.size(); ++i)
+      for (unsigned int c = 0; c < dim; ++c)
+        points[i][c] = positions[i * dim + c];
+
+    const std::vector<unsigned int> owners = owners_of(points);
+    AssertDimension(owners.size(), points.size());
+    const auto outside =
+      std::find(owners.begin(), owners.end(), dealii::numbers::invalid_unsigned_int);
+    AssertThrow(outside == owners.end(),
+                base::UserError("Part " + name() + ": the node at " +
+                                to_string(points[outside - owners.begin()]) + ", at " +
+                                to_string(mesh_.nodes[outside - owners.begin()]) +
+                                " in " + mesh_.source +
+                                ", is outside of the fluid's box."));
+
+    // Step 2: everything in the old order.
+    const VectorType density = elastic_density;
+    std::vector<std::vector<double>> values{to_mesh_order(density)};
+    for (const VectorType *v : others)
+      values.push_back(to_mesh_order(*v));
+
+    // Step 3: everything in the new order.
+    setup(owners);
+    from_mesh_order(values[0], elastic_density);
+    initialize_vector(X);
+    from_mesh_order(positions, X);
+    for (unsigned int k = 0; k < others.size(); ++k)
+      {
+        initialize_vector(*others[k]);
+        from_mesh_order(values[k + 1], *others[k]);
+      }
+  }
+
+
+  template <int dim>
+  void Body<dim>::initialize_vector(VectorType &v) const
+  {
+    v.reinit(elements_.partitioner()->locally_owned_range(), communicator());
+  }
+
+
+  template <int dim>
+  void Body<dim>::set_to_reference_positions(VectorType &X) const
+  {
+    for (unsigned int i = 0; i < elements_.n_owned_nodes(); ++i)
+      for (unsigned int c = 0; c < dim; ++c)
+        X.local_element(i * dim + c) = mesh_.nodes[elements_.file_node(i)][c];
+  }
+
+
+  template <int dim>
+  std::vector<double> Body<dim>::to_mesh_order(const VectorType &v) const
+  {
+    std::vector<double> values(mesh_.nodes.size() * dim, 0.);
+    for (unsigned int i = 0; i < elements_.n_owned_nodes(); ++i)
+      for (unsigned int c = 0; c < dim; ++c)
+        values[elements_.file_node(i) * dim + c] = v.local_element(i * dim + c);
+    dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(values),
+                                communicator(),
+                                dealii::ArrayView<double>(values));
+    return values;
+  }
+
+
+  template <int dim>
+  void Body<dim>::from_mesh_order(const std::vector<double> &values, VectorType &v) const
+  {
+    AssertDimension(values.size(), mesh_.nodes.size() * dim);
+    for (unsigned int i = 0; i < elements_.n_owned_nodes(); ++i)
+      for (unsigned int c = 0; c < dim; ++c)
+        v.local_element(i * dim + c) = values[elements_.file_node(i) * dim + c];
+  }
+
+
+  template <int dim>
+  const double *Body<dim>::import_positions(const VectorType &X) const
+  {
+    AssertDimension(X.locally_owned_size(), elements_.n_owned_nodes() * dim);
+    ghosted_positions.zero_out_ghost_values();
+    std::copy(X.begin(), X.end(), ghosted_positions.begin());
+    ghosted_positions.update_ghost_values();
+    return ghosted_positions.begin();
+  }
+
+
+  template <int dim>
+  std::vector<MaterialRange<dim>> Body<dim>::material_ranges(const double t) const
+  {
+    std::vector<MaterialRange<dim>> result;
+    for (const Range &range : ranges)
+      {
+        const Material<dim> &material = parameters.materials[range.material];
+        result.push_back(
+          {range.begin, range.end, material.law.get(), material.time_factor.value(t)});
+      }
+    return result;
+  }
+
+
+  template <int dim>
+  void Body<dim>::compute_elastic_force(const VectorType &X,
+                                        const double t,
+                                        VectorType &G) const
+  {
+    const double *positions = import_positions(X);
+
+    std::fill(local_forces.begin(), local_forces.end(), 0.);
+    unsigned int inverted = dealii::numbers::invalid_unsigned_int;
+    for (const MaterialRange<dim> &range : material_ranges(t))
+      inverted = std::min(inverted,
+                          structure::compute_elastic_force(
+                            cache, elements_, range, t, positions, local_forces.data()));
+
+    // All ranks stop if one does.
+    std::string message;
+    if (inverted != dealii::numbers::invalid_unsigned_int)
+      {
+        dealii::Point<dim> centroid;
+        for (unsigned int a = 0; a < mesh_.nodes_per_element; ++a)
+          for (unsigned int c = 0; c < dim; ++c)
+            centroid[c] +=
+              positions[elements_.nodes(inverted)[a] * dim + c] / mesh_.nodes_per_element;
+        std::ostringstream text;
+        text << "Part " << name() << ": the "
+             << mesh_.describe_element(elements_.element(inverted))
+             << " has been turned inside out (det F <= 0) at time " << t
+             << " s; its centroid is at " << to_string(centroid)
+             << ". A smaller time step, a larger bulk modulus or a finer mesh there may "
+                "help.";
+        message = text.str();
+      }
+    if (dealii::Utilities::MPI::logical_or(!message.empty(), communicator()))
+      for (const std::string &text :
+           dealii::Utilities::MPI::all_gather(communicator(), message))
+        AssertThrow(text.empty(), base::UserError(text));
+
+    std::copy(local_forces.begin(),
+              local_forces.begin() + elements_.n_owned_nodes() * dim,
+              G.begin());
+  }
+
+
+  template <int dim>
+  void Body<dim>::compute_force_density(const VectorType &X,
+                                        const VectorType &U,
+                                        const double t,
+                                        VectorType &F)
+  {
+    compute_elastic_force(X, t, elastic_force);
+    project(elastic_density, elastic_force);
+    std::copy(elastic_density.begin(), elastic_density.end(), F.begin());
+    for (const NamedConstraint<dim> &c : parameters.constraints)
+      c.constraint->add_force_density(X, U, t, F);
+  }
+
+
+  template <int dim>
+  unsigned int Body<dim>::project(VectorType &x, const VectorType &b) const
+  {
+    if (parameters.consistent_mass)
+      return mass_matrix_.solve(x, b, parameters.mass_tolerance);
+
+    for (unsigned int i = 0; i < elements_.n_owned_nodes(); ++i)
+      for (unsigned int c = 0; c < dim; ++c)
+        x.local_element(i * dim + c) =
+          b.local_element(i * dim + c) / mass_matrix_.lumped()[i];
+    return 0;
+  }
+
+
+  template <int dim>
+  dealii::Tensor<1, dim> Body<dim>::compute_total(const VectorType &F) const
+  {
+    dealii::Tensor<1, dim> total;
+    for (unsigned int i = 0; i < elements_.n_owned_nodes(); ++i)
+      for (unsigned int c = 0; c < dim; ++c)
+        total[c] += mass_matrix_.lumped()[i] * F.local_element(i * dim + c);
+    return dealii::Utilities::MPI::sum(total, communicator());
+  }
+
+
+  template <int dim>
+  double Body<dim>::compute_elastic_energy(const VectorType &X, const double t) const
+  {
+    const double *positions = import_positions(X);
+    double energy           = 0;
+    for (const MaterialRange<dim> &range : material_ranges(t))
+      energy += structure::compute_elastic_energy(cache, elements_, range, t, positions);
+    return dealii::Utilities::MPI::sum(energy, communicator());
+  }
+
+
+  template <int dim>
+  std::vector<double> Body<dim>::compute_constraint_displacements(const VectorType &X,
+                                                                  const double t) const
+  {
+    std::vector<double> largest;
+    for (const NamedConstraint<dim> &c : parameters.constraints)
+      largest.push_back(c.constraint->largest_displacement(X, t));
+    if (!largest.empty())
+      dealii::Utilities::MPI::max(dealii::ArrayView<const double>(largest),
+                                  communicator(),
+                                  dealii::ArrayView<double>(largest));
+    return largest;
+  }
+
+
+  template <int dim>
+  std::pair<double, double> Body<dim>::compute_volume_ratios(const VectorType &X) const
+  {
+    const double *positions = import_positions(X);
+    double smallest         = std::numeric_limits<double>::max();
+    double largest          = std::numeric_limits<double>::lowest();
+    for (unsigned int i = 0; i < elements_.n_elements(); ++i)
+      {
+        double volume = 0, reference_volume = 0;
+        for (unsigned int q = 0; q < cache.points_per_element; ++q)
+          {
+            const double JxW = cache.JxW[i * cache.points_per_element + q];
+            reference_volume += JxW;
+            volume += JxW * determinant(compute_deformation_gradient(
+                              cache, elements_, i, q, positions));
+          }
+        smallest = std::min(smallest, volume / reference_volume);
+        largest  = std::max(largest, volume / reference_volume);
+      }
+    return {dealii::Utilities::MPI::min(smallest, communicator()),
+            dealii::Utilities::MPI::max(largest, communicator())};
+  }
+
+
+  template struct BodyParameters<2>;
+  template struct BodyParameters<3>;
+  template class Body<2>;
+  template class Body<3>;
+} // namespace mitre::structure
