@@ -3,6 +3,7 @@
 #include <deal.II/base/numbers.h>
 
 #include <cmath>
+#include <iostream>
 #include <map>
 #include <sstream>
 
@@ -14,19 +15,41 @@ namespace mitre::base
 {
   namespace
   {
-    // What muParser says about the last expression it could not read. deal.II passes on
-    // its message and the token at fault in an exception of its own.
+    // deal.II writes what muParser objects to on std::cerr, on every rank, besides
+    // throwing it. This keeps it quiet as long as it exists.
+    class QuietErrorStream
+    {
+    public:
+      QuietErrorStream()
+        : buffer_(std::cerr.rdbuf(text_.rdbuf()))
+      {
+      }
+
+      QuietErrorStream(const QuietErrorStream &) = delete;
+
+      ~QuietErrorStream()
+      {
+        std::cerr.rdbuf(buffer_);
+      }
+
+    private:
+      std::ostringstream text_;
+      std::streambuf *buffer_;
+    };
+
+
+    // muParser's own words in an exception of deal.II's.
     std::string reason(const dealii::ExceptionBase &error)
     {
       std::ostringstream text;
       error.print_info(text);
-      std::string line = text.str();
-      for (char &c : line)
-        if (c == '\n')
-          c = ' ';
-      const auto begin = line.find_first_not_of(" \t");
-      const auto end   = line.find_last_not_of(" \t");
-      return begin == std::string::npos ? "" : line.substr(begin, end - begin + 1);
+      std::string message      = text.str();
+      const std::string before = "The parser said: ";
+      const auto begin         = message.find(before);
+      if (begin != std::string::npos)
+        message = message.substr(begin + before.size());
+      message = message.substr(0, message.find('\n'));
+      return message.substr(0, message.find_last_not_of(" .") + 1) + ".";
     }
 
 
@@ -48,6 +71,7 @@ namespace mitre::base
       auto parser = std::make_shared<dealii::FunctionParser<dim>>();
       try
         {
+          const QuietErrorStream quiet;
           parser->initialize(variables,
                              expression,
                              {{"pi", dealii::numbers::PI}, {"mmHg", mmHg}},
