@@ -1,0 +1,38 @@
+#ifndef mitre_fluid_boundary_conditions_pressure_h
+#define mitre_fluid_boundary_conditions_pressure_h
+
+#include <mitre/base/expression.h>
+#include <mitre/base/time_table.h>
+#include <mitre/fluid/boundary_conditions/interface.h>
+
+namespace mitre::fluid
+{
+  /**
+   * An open boundary with a given pressure: normal traction -p and zero tangential
+   * velocity. (On such a boundary the normal viscous stress vanishes, because the
+   * divergence and the tangential derivatives of the tangential velocity do.) The
+   * pressure is an expression of place and time, or a column of a table over time.
+   */
+  template <int dim>
+  class PressureCondition : public BoundaryCondition<dim>
+  {
+  public:
+    static void declare_parameters(dealii::ParameterHandler &prm);
+    void parse_parameters(dealii::ParameterHandler &prm, const std::string &name) override;
+
+    grid::BoundaryKind
+    kind() const override
+    {
+      return grid::BoundaryKind::traction;
+    }
+
+    double pressure(const dealii::Point<dim> &x, const double t) const override;
+
+  private:
+    base::Expression<dim>            expression;
+    std::shared_ptr<base::TimeTable> table;
+    unsigned int                     column = 0;
+  };
+} // namespace mitre::fluid
+
+#endif

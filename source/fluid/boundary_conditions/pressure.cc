@@ -1,0 +1,71 @@
+#include <mitre/base/exceptions.h>
+#include <mitre/base/parameters.h>
+#include <mitre/fluid/boundary_conditions/pressure.h>
+
+namespace mitre::fluid
+{
+  using namespace dealii;
+
+  template <int dim>
+  void
+  PressureCondition<dim>::declare_parameters(ParameterHandler &prm)
+  {
+    prm.declare_entry("Pressure",
+                      "0",
+                      Patterns::Anything(),
+                      "Pressure [dyn/cm^2], an expression of x, y, z [cm] and t [s]; the "
+                      "constant mmHg converts: 10*mmHg. Added to the table's, if there is "
+                      "one.");
+    prm.declare_entry("Table file",
+                      "",
+                      base::InputFile(),
+                      "A table of pressures over time: comma-separated, first line with "
+                      "names and units, as in \"time [s],atrium [mmHg]\".");
+    prm.declare_entry("Table column",
+                      "",
+                      Patterns::Anything(),
+                      "Name of the table's column (without its unit).");
+    prm.declare_entry("Table extension",
+                      "periodic",
+                      Patterns::Selection("periodic|clamped"),
+                      "What holds after the end of the table: it repeats, or its last value "
+                      "stays.");
+  }
+
+
+
+  template <int dim>
+  void
+  PressureCondition<dim>::parse_parameters(ParameterHandler &prm, const std::string &name)
+  {
+    expression = base::Expression<dim>(prm.get("Pressure"),
+                                       "Boundary conditions / " + name + " / Pressure");
+    table.reset();
+    const std::string file = prm.get("Table file");
+    if (!file.empty())
+      {
+        table = std::make_shared<base::TimeTable>(file,
+                                                  prm.get("Table extension") == "periodic" ?
+                                                    base::TimeTable::Extension::periodic :
+                                                    base::TimeTable::Extension::clamped);
+        if (prm.get("Table column").empty())
+          throw base::UserError("Boundary condition \"" + name +
+                                "\" names a \"Table file\", but no \"Table column\".");
+        column = table->column(prm.get("Table column"));
+      }
+  }
+
+
+
+  template <int dim>
+  double
+  PressureCondition<dim>::pressure(const Point<dim> &x, const double t) const
+  {
+    return expression.value(x, t) + (table ? table->value(column, t) : 0.);
+  }
+
+
+
+  template class PressureCondition<2>;
+  template class PressureCondition<3>;
+} // namespace mitre::fluid

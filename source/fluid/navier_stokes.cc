@@ -1,0 +1,303 @@
+#include <mitre/base/exceptions.h>
+#include <mitre/fluid/navier_stokes.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mitre::fluid
+{
+  using namespace dealii;
+  using grid::VectorType;
+
+  void
+  FluidParameters::declare_parameters(ParameterHandler &prm)
+  {
+    prm.declare_entry("Density", "1", Patterns::Double(1e-12), "Mass density [g/cm^3].");
+    prm.declare_entry("Viscosity",
+                      "0.04",
+                      Patterns::Double(0.),
+                      "Dynamic viscosity [g/(cm s)] (= poise).");
+    prm.declare_entry("Advection scheme",
+                      "PPM",
+                      Patterns::Selection("PPM|CUI|centered|none"),
+                      "PPM: monotonised piecewise parabolic, upwind; CUI: limited cubic "
+                      "upwind interpolation; centered; none: Stokes flow.");
+    prm.enter_subsection("Solver");
+    StokesSolverParameters::declare_parameters(prm);
+    prm.leave_subsection();
+  }
+
+
+
+  void
+  FluidParameters::parse_parameters(ParameterHandler &prm)
+  {
+    density   = prm.get_double("Density");
+    viscosity = prm.get_double("Viscosity");
+    advection = advection_scheme(prm.get("Advection scheme"));
+    prm.enter_subsection("Solver");
+    solver.parse_parameters(prm);
+    prm.leave_subsection();
+  }
+
+
+
+  template <int dim>
+  NavierStokes<dim>::NavierStokes(grid::PatchGrid<dim>          &patch_grid,
+                                  const BoundaryConditions<dim> &boundary_conditions,
+                                  const FluidParameters         &parameters)
+    : patch_grid(patch_grid)
+    , boundary_conditions(boundary_conditions)
+    , parameters(parameters)
+    , velocities_zero(boundary_conditions.all_velocities_zero())
+  {
+    setup();
+  }
+
+
+
+  template <int dim>
+  void
+  NavierStokes<dim>::setup()
+  {
+    velocity_space = std::make_unique<grid::StaggeredSpace<dim>>(patch_grid,
+                                                                 boundary_conditions.kinds());
+    stokes_operators = std::make_unique<StokesOperators<dim>>(*velocity_space);
+    stokes_solver    = std::make_unique<StokesSolver<dim>>(*stokes_operators,
+                                                        parameters.solver,
+                                                        parameters.density,
+                                                        parameters.viscosity);
+    advection = std::make_unique<Advection<dim>>(*velocity_space, parameters.advection);
+    for (VectorType *v :
+         {&u, &u_old, &u_new, &advection_old, &advection_new, &provisional, &rhs, &work})
+      stokes_operators->initialize_velocity(*v);
+    for (VectorType *v : {&p, &p_old, &p_new})
+      stokes_operators->initialize_pressure(*v);
+    last_dt              = 0.;
+    n_steps_since_change = 0;
+  }
+
+
+
+  template <int dim>
+  void
+  NavierStokes<dim>::set_time_step(const double dt)
+  {
+    if (dt != last_dt)
+      stokes_solver->set_time_step(dt);
+    last_dt = dt;
+  }
+
+
+
+  template <int dim>
+  void
+  NavierStokes<dim>::set_fixed_faces(VectorType &velocity, const double time) const
+  {
+    for (const auto &face : velocity_space->fixed_faces())
+      {
+        const auto &condition = boundary_conditions.condition(face.condition);
+        velocity.local_element(face.dof) =
+          condition.kind() == grid::BoundaryKind::slip ?
+            0. :
+            condition.velocity(face.x, face.side / 2, time);
+      }
+  }
+
+
+
+  template <int dim>
+  std::function<double(const grid::BoundaryTerm<dim> &)>
+  NavierStokes<dim>::prescribed(const double time) const
+  {
+    if (velocities_zero)
+      return {};
+    return [this, time](const grid::BoundaryTerm<dim> &term) {
+      return boundary_conditions.condition(term.condition)
+        .velocity(term.x, term.component, time);
+    };
+  }
+
+
+
+  template <int dim>
+  void
+  NavierStokes<dim>::set_velocity(const VelocityFunction &function, const double time)
+  {
+    typename grid::StaggeredSpace<dim>::Index index;
+    for (unsigned int q = 0; q < patch_grid.n_owned_patches(); ++q)
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int i = 0; i < velocity_space->n_dofs_per_component(); ++i)
+          {
+            unsigned int rest = i;
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                index[d] = rest % velocity_space->extent(c, d);
+                rest /= velocity_space->extent(c, d);
+              }
+            u.local_element(velocity_space->first_dof(q, c) + i) =
+              function(velocity_space->position(q, c, index), c);
+          }
+    set_fixed_faces(u, time);
+    velocity_space->synchronize(u);
+    const double speed = u.linfty_norm();
+    if (speed > 0.)
+      stokes_solver->project(u, 1e-10 * speed);
+    u_old       = u;
+    p           = 0.;
+    p_old       = 0.;
+    has_history = false;
+  }
+
+
+
+  template <int dim>
+  void
+  NavierStokes<dim>::compute_advection(VectorType       &dst,
+                                       const VectorType &velocity,
+                                       const double      time)
+  {
+    advection->apply(dst, velocity, prescribed(time));
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  NavierStokes<dim>::solve(VectorType       &velocity,
+                           VectorType       &pressure,
+                           const VectorType &advection_term,
+                           const VectorType &force,
+                           const double      time,
+                           const double      dt)
+  {
+    set_time_step(dt);
+    set_fixed_faces(velocity, time + dt);
+
+    // what does not depend on the new velocity and pressure
+    const auto values_now = prescribed(time), values_new = prescribed(time + dt);
+    if (values_now)
+      stokes_operators->set_boundary_values(values_now);
+    stokes_operators->apply_helmholtz(
+      rhs, u, parameters.density / dt, 0.5 * parameters.viscosity, !velocities_zero);
+    rhs.add(-parameters.density, advection_term);
+    rhs.add(1., force);
+    for (const auto &face : velocity_space->open_faces())
+      {
+        const double h = patch_grid.patch(face.patch).h[face.side / 2];
+        const double outside =
+          boundary_conditions.condition(face.condition).pressure(face.x, time + 0.5 * dt);
+        rhs.local_element(face.dof) += (face.side % 2 == 0 ? 2. : -2.) * outside / h;
+      }
+    velocity_space->zero_fixed_faces(rhs);
+    const double size = rhs.l2_norm();
+
+    if (values_new)
+      stokes_operators->set_boundary_values(values_new);
+    stokes_operators->apply_helmholtz(
+      work, velocity, parameters.density / dt, -0.5 * parameters.viscosity, !velocities_zero);
+    stokes_operators->apply_gradient(work, pressure, true);
+    rhs.add(-1., work);
+    const double start = rhs.l2_norm();
+    return stokes_solver->solve(velocity, pressure, rhs, std::max(size, start));
+  }
+
+
+
+  template <int dim>
+  void
+  NavierStokes<dim>::predict(const double time, const double dt, const VectorType &force)
+  {
+    compute_advection(advection_new, u, time);
+    provisional = u;
+    p_new       = p;
+    solve(provisional, p_new, advection_new, force, time, dt);
+    has_predicted = true;
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  NavierStokes<dim>::advance(const double time, const double dt, const VectorType &force)
+  {
+    if (!has_history)
+      {
+        // (2.20)-(2.24): advection at the midpoint from a provisional velocity
+        if (!has_predicted)
+          predict(time, dt, force);
+        work = u;
+        work.sadd(0.5, 0.5, provisional);
+        compute_advection(advection_old, u, time);
+        compute_advection(advection_new, work, time + 0.5 * dt);
+        u_new = provisional;
+      }
+    else
+      {
+        // (2.16): extrapolation from the last two times
+        compute_advection(advection_new, u, time);
+        rhs = advection_new;
+        advection_new.sadd(1.5, -0.5, advection_old);
+        advection_old = rhs;
+        u_new         = u;
+        p_new         = p;
+        if (n_steps_since_change >= 2)
+          {
+            u_new.sadd(2., -1., u_old);
+            p_new.sadd(2., -1., p_old);
+          }
+      }
+    const unsigned int iterations = solve(u_new, p_new, advection_new, force, time, dt);
+    u_old.swap(u);
+    u.swap(u_new);
+    p_old.swap(p);
+    p.swap(p_new);
+    has_history   = true;
+    has_predicted = false;
+    ++n_steps_since_change;
+    return iterations;
+  }
+
+
+
+  template <int dim>
+  bool
+  NavierStokes<dim>::regrid(
+    const std::function<int(const BoundingBox<dim> &)> &wanted_level,
+    const double                                        time)
+  {
+    std::unique_ptr<grid::SolutionTransfer<dim>> transfer;
+    const auto                                   before = [&]() {
+      transfer = std::make_unique<grid::SolutionTransfer<dim>>(
+        patch_grid,
+        *velocity_space,
+        stokes_operators->pressure_halo(),
+        std::vector<const VectorType *>{&u, &advection_old},
+        std::vector<const VectorType *>{&p});
+    };
+    const auto after = [&]() {
+      // the transfer refers to the old spaces until it has finished
+      const auto old_space     = std::move(velocity_space);
+      const auto old_operators = std::move(stokes_operators);
+      const auto old_solver    = std::move(stokes_solver);
+      setup();
+      transfer->finish(*velocity_space, {&u, &advection_old}, {&p});
+      transfer.reset();
+    };
+    const double tolerance = 1e-10;
+    if (!patch_grid.adapt(wanted_level, before, after))
+      return false;
+    set_fixed_faces(u, time);
+    const double speed = u.linfty_norm();
+    projection_iterations =
+      speed > 0. ? stokes_solver->project(u, tolerance * speed) : 0;
+    u_old = u;
+    p_old = p;
+    return true;
+  }
+
+
+
+  template class NavierStokes<2>;
+  template class NavierStokes<3>;
+} // namespace mitre::fluid

@@ -1,0 +1,312 @@
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+#include <mitre/fluid/stokes_operators.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mitre::fluid
+{
+  using namespace dealii;
+  using grid::Neighbor;
+  using grid::VectorType;
+
+  template <int dim>
+  StokesOperators<dim>::StokesOperators(grid::StaggeredSpace<dim> &space)
+    : space(space)
+    , patch_grid(space.grid())
+    , n(patch_grid.n_cells_per_side())
+    , velocity_halo(space,
+                    1,
+                    grid::HaloShape::star,
+                    grid::BoundaryExtension::quadratic)
+    , cell_halo(patch_grid, n)
+  {
+    std::vector<types::global_dof_index> ghosts;
+    velocity_halo.add_ghosts(ghosts);
+    space.finalize(std::move(ghosts));
+    velocity_halo.localize(space.partitioner());
+    if (!patch_grid.has_coarse_fine_interfaces())
+      return;
+
+    space.initialize_vector(interface_forces);
+    const unsigned int cells_per_patch = cell_halo.n_cells_per_patch();
+    // the cell of a patch that touches an outermost face, and the face's signed area
+    const auto cell_at = [&](const std::size_t dof, const unsigned int side) {
+      const unsigned int p = dof / space.n_dofs_per_patch();
+      const unsigned int c = side / 2;
+      unsigned int       rest = dof - space.first_dof(p, c), cell = 0, stride = 1;
+      double             area = (side % 2 == 0 ? 1. : -1.);
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const unsigned int i = rest % space.extent(c, d);
+          rest /= space.extent(c, d);
+          cell += std::min(i, n - 1) * stride;
+          stride *= n;
+          if (d != c)
+            area *= patch_grid.patch(p).h[d];
+        }
+      return std::make_pair(p * cells_per_patch + cell, area);
+    };
+    const auto &table = space.coarse_fine_faces();
+    for (unsigned int row = 0; row < table.n_rows(); ++row)
+      {
+        const std::size_t  dof   = table.destination(row);
+        const unsigned int c     = (dof % space.n_dofs_per_patch()) / space.n_dofs_per_component();
+        const unsigned int p     = dof / space.n_dofs_per_patch();
+        const unsigned int plane = ((dof - space.first_dof(p, c)) / space.stride(c, c)) % (n + 1);
+        interface_cells.push_back(cell_at(dof, 2 * c + (plane == 0 ? 0 : 1)));
+      }
+    for (const auto &[p, side] : space.coarse_sides())
+      {
+        const unsigned int c = side / 2, s = space.stride(c, c);
+        for (unsigned int i = 0; i < Utilities::fixed_power<dim - 1>(n); ++i)
+          {
+            const std::size_t dof = space.first_dof(p, c) + (side % 2) * n * s +
+                                    (i / s) * s * (n + 1) + i % s;
+            const auto [cell, area] = cell_at(dof, side);
+            coarse_faces.push_back({dof, cell, area});
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  StokesOperators<dim>::finish(VectorType &dst) const
+  {
+    space.zero_fixed_faces(dst);
+    if (patch_grid.has_coarse_fine_interfaces())
+      space.synchronize(dst);
+  }
+
+
+
+  template <int dim>
+  void
+  StokesOperators<dim>::apply_helmholtz(VectorType  &dst,
+                                        VectorType  &u,
+                                        const double a,
+                                        const double b,
+                                        const bool   inhomogeneous) const
+  {
+    u.update_ghost_values();
+    std::vector<double> padded(velocity_halo.size(0));
+    for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
+      {
+        const auto            &patch = patch_grid.patch(p);
+        std::array<double, dim> w;
+        double                  center_weight = a;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            w[d] = b / (patch.h[d] * patch.h[d]);
+            center_weight -= 2. * w[d];
+          }
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            velocity_halo.gather(u, p, c, padded.data(), inhomogeneous);
+            const auto         e  = velocity_halo.extents(c);
+            const unsigned int nx = space.extent(c, 0), ny = space.extent(c, 1),
+                               nz = (dim == 3 ? space.extent(c, dim - 1) : 1);
+            const std::ptrdiff_t sy = e[0], sz = e[0] * e[1];
+            double              *out = dst.begin() + space.first_dof(p, c);
+            for (unsigned int k = 0; k < nz; ++k)
+              for (unsigned int j = 0; j < ny; ++j, out += nx)
+                {
+                  const double *in =
+                    padded.data() + 1 + (j + 1) * sy + (dim == 3 ? (k + 1) * sz : 0);
+                  for (unsigned int i = 0; i < nx; ++i)
+                    {
+                      double sum = center_weight * in[i] +
+                                   w[0] * (*(in + i - 1) + in[i + 1]) +
+                                   w[1] * (*(in + i - sy) + in[i + sy]);
+                      if constexpr (dim == 3)
+                        sum += w[2] * (*(in + i - sz) + in[i + sz]);
+                      out[i] = sum;
+                    }
+                }
+          }
+      }
+    u.zero_out_ghost_values();
+    finish(dst);
+  }
+
+
+
+  template <int dim>
+  void
+  StokesOperators<dim>::apply_gradient(VectorType &dst, VectorType &pressure, const bool add) const
+  {
+    pressure.update_ghost_values();
+    std::vector<double>  padded(cell_halo.padded_size());
+    const std::ptrdiff_t sy = n + 2, sz = sy * sy;
+    for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
+      {
+        cell_halo.gather(pressure, p, padded.data());
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            const double         factor = 1. / patch_grid.patch(p).h[c];
+            const std::ptrdiff_t back   = (c == 0 ? 1 : (c == 1 ? sy : sz));
+            const unsigned int   nx = space.extent(c, 0), ny = space.extent(c, 1),
+                               nz = (dim == 3 ? space.extent(c, dim - 1) : 1);
+
+            // planes of faces on the boundary are half a cell away from the pressure,
+            // those on coarse-fine interfaces follow below
+            std::array<double, 2> end_factor;
+            for (unsigned int upper = 0; upper < 2; ++upper)
+              {
+                const Neighbor kind = patch_grid.neighbor(p, 2 * c + upper);
+                end_factor[upper]   = (kind == Neighbor::same     ? 1. :
+                                       kind == Neighbor::boundary ? 2. :
+                                                                    0.) *
+                                    factor;
+              }
+            double *out = dst.begin() + space.first_dof(p, c);
+            for (unsigned int k = 0; k < nz; ++k)
+              for (unsigned int j = 0; j < ny; ++j, out += nx)
+                {
+                  const double *in =
+                    padded.data() + 1 + (j + 1) * sy + (dim == 3 ? (k + 1) * sz : 0);
+                  double row_factor = factor;
+                  if (c > 0)
+                    {
+                      const unsigned int plane = (c == 1 ? j : k);
+                      if (plane == 0)
+                        row_factor = end_factor[0];
+                      else if (plane == n)
+                        row_factor = end_factor[1];
+                    }
+                  if (add)
+                    for (unsigned int i = 0; i < nx; ++i)
+                      out[i] += row_factor * (in[i] - *(in + i - back));
+                  else
+                    for (unsigned int i = 0; i < nx; ++i)
+                      out[i] = row_factor * (in[i] - *(in + i - back));
+                  if (c == 0)
+                    {
+                      out[0] += (end_factor[0] - factor) * (in[0] - *(in - 1));
+                      out[n] += (end_factor[1] - factor) * (in[n] - in[n - 1]);
+                    }
+                }
+          }
+      }
+    pressure.zero_out_ghost_values();
+
+    if (patch_grid.has_coarse_fine_interfaces())
+      {
+        interface_forces      = 0.;
+        const double *p_value = pressure.begin();
+        const auto   &table   = space.coarse_fine_faces();
+        for (unsigned int row = 0; row < table.n_rows(); ++row)
+          interface_forces.local_element(table.destination(row)) =
+            interface_cells[row].second * p_value[interface_cells[row].first];
+        for (const CoarseFace &face : coarse_faces)
+          interface_forces.local_element(face.dof) = face.area * p_value[face.cell];
+        space.collect(interface_forces);
+        interface_forces.scale(space.inverse_volumes());
+        dst.add(1., interface_forces);
+      }
+    finish(dst);
+  }
+
+
+
+  template <int dim>
+  void
+  StokesOperators<dim>::apply_divergence(VectorType &dst, const VectorType &u) const
+  {
+    const unsigned int nz = (dim == 3 ? n : 1);
+    double            *out = dst.begin();
+    for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
+      {
+        const auto                   &patch = patch_grid.patch(p);
+        std::array<const double *, 3> in{};
+        std::array<double, 3>         w{};
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            in[c] = u.begin() + space.first_dof(p, c);
+            w[c]  = 1. / patch.h[c];
+          }
+        for (unsigned int k = 0; k < nz; ++k)
+          for (unsigned int j = 0; j < n; ++j, out += n)
+            {
+              const double *ux = in[0] + (j + k * n) * (n + 1);
+              const double *uy = in[1] + (j + k * (n + 1)) * n;
+              const double *uz = in[2] + (j + k * n) * n;
+              for (unsigned int i = 0; i < n; ++i)
+                {
+                  double sum = w[0] * (ux[i + 1] - ux[i]) + w[1] * (uy[i + n] - uy[i]);
+                  if constexpr (dim == 3)
+                    sum += w[2] * (uz[i + n * n] - uz[i]);
+                  out[i] = sum;
+                }
+            }
+      }
+  }
+
+
+
+  template <int dim>
+  double
+  StokesOperators<dim>::max_divergence(const VectorType &u) const
+  {
+    VectorType divergence;
+    initialize_pressure(divergence);
+    apply_divergence(divergence, u);
+    return divergence.linfty_norm();
+  }
+
+
+
+  template <int dim>
+  double
+  StokesOperators<dim>::max_courant_number(const VectorType &u, const double dt) const
+  {
+    double largest = 0.;
+    for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          const double *values = u.begin() + space.first_dof(p, c);
+          double        speed  = 0.;
+          bool          finite = true;
+          for (unsigned int i = 0; i < space.n_dofs_per_component(); ++i)
+            {
+              speed  = std::max(speed, std::abs(values[i]));
+              finite = finite && std::isfinite(values[i]);
+            }
+          if (!finite)
+            speed = std::numeric_limits<double>::infinity();
+          largest = std::max(largest, speed * dt / patch_grid.patch(p).h[c]);
+        }
+    return Utilities::MPI::max(largest, patch_grid.communicator());
+  }
+
+
+
+  template <int dim>
+  double
+  StokesOperators<dim>::mean_pressure(const VectorType &p) const
+  {
+    double                sum[2]   = {0., 0.};
+    const unsigned int    per_patch = cell_halo.n_cells_per_patch();
+    for (unsigned int q = 0; q < patch_grid.n_owned_patches(); ++q)
+      {
+        double volume = 1.;
+        for (unsigned int d = 0; d < dim; ++d)
+          volume *= patch_grid.patch(q).h[d];
+        for (unsigned int i = 0; i < per_patch; ++i)
+          sum[0] += volume * p.local_element(q * per_patch + i);
+        sum[1] += volume * per_patch;
+      }
+    double total[2];
+    MPI_Allreduce(sum, total, 2, MPI_DOUBLE, MPI_SUM, patch_grid.communicator());
+    return total[0] / total[1];
+  }
+
+
+
+  template class StokesOperators<2>;
+  template class StokesOperators<3>;
+} // namespace mitre::fluid

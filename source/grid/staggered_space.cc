@@ -1,0 +1,722 @@
+#include <deal.II/base/index_set.h>
+#include <deal.II/base/partitioner.h>
+#include <deal.II/base/utilities.h>
+
+#include <mitre/grid/staggered_space.h>
+
+#include <algorithm>
+
+namespace mitre::grid
+{
+  using namespace dealii;
+
+  template <int dim>
+  void
+  LinearCombination<dim>::add(const LinearCombination<dim> &other, const double factor)
+  {
+    for (const auto &entry : other.entries)
+      entries.emplace_back(entry.first, entry.second * factor);
+    for (BoundaryTerm<dim> term : other.boundary)
+      {
+        term.weight *= factor;
+        boundary.push_back(term);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  LinearCombination<dim>::merge()
+  {
+    std::sort(entries.begin(), entries.end());
+    std::size_t size = 0;
+    for (std::size_t i = 0; i < entries.size(); ++i)
+      if (size > 0 && entries[size - 1].first == entries[i].first)
+        entries[size - 1].second += entries[i].second;
+      else
+        entries[size++] = entries[i];
+    entries.resize(size);
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  CombinationTable<dim>::append(const unsigned int       destination,
+                                LinearCombination<dim> &&row)
+  {
+    row.merge();
+    const unsigned int number = destinations.size();
+    destinations.push_back(destination);
+    for (const auto &entry : row.entries)
+      {
+        global_columns.push_back(entry.first);
+        weights.push_back(entry.second);
+      }
+    starts.push_back(global_columns.size());
+    for (const auto &term : row.boundary)
+      boundary_terms.emplace_back(number, term);
+    return number;
+  }
+
+
+
+  template <int dim>
+  void
+  CombinationTable<dim>::collect_indices(
+    std::vector<types::global_dof_index> &indices) const
+  {
+    indices.insert(indices.end(), global_columns.begin(), global_columns.end());
+  }
+
+
+
+  template <int dim>
+  void
+  CombinationTable<dim>::localize(const Utilities::MPI::Partitioner &partitioner)
+  {
+    columns.resize(global_columns.size());
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      columns[i] = partitioner.global_to_local(global_columns[i]);
+    global_columns.clear();
+    global_columns.shrink_to_fit();
+  }
+
+
+
+  template <int dim>
+  void
+  CombinationTable<dim>::set_boundary_values(
+    const std::function<double(const BoundaryTerm<dim> &)> &prescribed)
+  {
+    if (boundary_terms.empty())
+      return;
+    boundary_values.assign(destinations.size(), 0.);
+    for (const auto &[row, term] : boundary_terms)
+      boundary_values[row] += term.weight * prescribed(term);
+  }
+
+
+
+  template <int dim>
+  std::size_t
+  CombinationTable<dim>::memory_consumption() const
+  {
+    return destinations.size() * 8 + columns.size() * 12 +
+           boundary_terms.size() * sizeof(boundary_terms[0]) + boundary_values.size() * 8;
+  }
+
+
+
+  template <int dim>
+  StaggeredSpace<dim>::StaggeredSpace(const PatchGrid<dim>     &grid,
+                                      const BoundaryKinds<dim> &boundary_kinds)
+    : patch_grid(grid)
+    , kinds(boundary_kinds)
+    , n(grid.n_cells_per_side())
+    , dofs_per_component((n + 1) * Utilities::fixed_power<dim - 1>(n))
+  {
+    build_copies();
+    build_interfaces();
+    build_boundary();
+  }
+
+
+
+  template <int dim>
+  Point<dim>
+  StaggeredSpace<dim>::position(const unsigned int p,
+                                const unsigned int c,
+                                const Index       &i) const
+  {
+    const Patch<dim> &patch = patch_grid.patch(p);
+    Point<dim>        x;
+    for (unsigned int d = 0; d < dim; ++d)
+      x[d] = patch.lower[d] + (i[d] + (d == c ? 0. : 0.5)) * patch.h[d];
+    return x;
+  }
+
+
+
+  template <int dim>
+  Point<dim>
+  StaggeredSpace<dim>::boundary_position(const int          level,
+                                         const unsigned int c,
+                                         const Index       &index,
+                                         const unsigned int side) const
+  {
+    const auto &[lower, upper] = patch_grid.box().get_boundary_points();
+    Point<dim> x;
+    for (unsigned int d = 0; d < dim; ++d)
+      if (d == side / 2)
+        x[d] = (side % 2 == 0 ? lower[d] : upper[d]);
+      else
+        {
+          const double h = patch_grid.cell_width(level, d);
+          x[d] = std::min(std::max(lower[d] + (index[d] + (d == c ? 0. : 0.5)) * h, lower[d]),
+                          upper[d]);
+        }
+    return x;
+  }
+
+
+
+  template <int dim>
+  types::global_dof_index
+  StaggeredSpace<dim>::find_entry(const int          level,
+                                  const unsigned int c,
+                                  const Index       &index) const
+  {
+    const int in = n;
+    const int faces = patch_grid.n_patches(level, c) * in;
+
+    const auto number = [&](const unsigned int p, const Index &first) {
+      types::global_dof_index entry = 0;
+      for (int d = dim - 1; d >= 0; --d)
+        entry = entry * extent(c, d) + (index[d] - first[d]);
+      return patch_grid.patch(p).global_id * n_dofs_per_patch() + c * dofs_per_component +
+             entry;
+    };
+
+    // the patch above the face, then the one below
+    Index where, first;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        where[d] = index[d] / in;
+        first[d] = where[d] * in;
+      }
+    if (index[c] < faces)
+      {
+        const unsigned int p = patch_grid.find(level, where);
+        if (p != numbers::invalid_unsigned_int)
+          return number(p, first);
+      }
+    if (index[c] % in == 0 && (index[c] > 0 || patch_grid.periodic()[c]))
+      {
+        where[c] -= 1;
+        first[c] -= in;
+        const unsigned int p = patch_grid.find(level, where);
+        if (p != numbers::invalid_unsigned_int)
+          return number(p, first);
+      }
+    return numbers::invalid_dof_index;
+  }
+
+
+
+  template <int dim>
+  bool
+  StaggeredSpace<dim>::combination(const int               level,
+                                   const unsigned int      c,
+                                   Index                   index,
+                                   const BoundaryExtension extension,
+                                   const bool              interpolate,
+                                   LinearCombination<dim> &result) const
+  {
+    // outside of the box: periodic image, or extension by the boundary condition
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const int size = patch_grid.n_patches(level, d) * static_cast<int>(n);
+        if (patch_grid.periodic()[d])
+          {
+            index[d] = ((index[d] % size) + size) % size;
+            continue;
+          }
+        const bool below = index[d] < 0;
+        const bool above = (d == c ? index[d] > size : index[d] >= size);
+        if (!below && !above)
+          continue;
+
+        const unsigned int side = 2 * d + (above ? 1 : 0);
+        const Point<dim>   x    = boundary_position(level, c, index, side);
+        const BoundaryInfo info = kinds(side, x);
+
+        const auto add = [&](const int depth, const double weight) {
+          Index inside = index;
+          // depth 0 is the boundary face or the cell next to the boundary
+          inside[d] = above ? (d == c ? size - depth : size - 1 - depth) : depth;
+          LinearCombination<dim> part;
+          if (!combination(level, c, inside, extension, interpolate, part))
+            return false;
+          result.add(part, weight);
+          return true;
+        };
+
+        if (d == c)
+          {
+            const int k = below ? -index[d] : index[d] - size;
+            if (info.kind == BoundaryKind::traction)
+              return add(k, 1.);
+            return add(0, 2.) && add(k, -1.);
+          }
+
+        const int k = below ? -index[d] - 1 : index[d] - size;
+        if (info.kind == BoundaryKind::slip)
+          return add(k, 1.);
+        if (extension == BoundaryExtension::quadratic && k == 0)
+          {
+            result.boundary.push_back({x, c, info.condition, 8. / 3.});
+            return add(0, -2.) && add(1, 1. / 3.);
+          }
+        result.boundary.push_back({x, c, info.condition, 2.});
+        return add(k, -1.);
+      }
+
+    const types::global_dof_index entry = find_entry(level, c, index);
+    if (entry != numbers::invalid_dof_index)
+      {
+        result.entries.emplace_back(entry, 1.);
+        return true;
+      }
+
+    // where leaves are finer: mean over the fine faces that make up the face
+    {
+      constexpr unsigned int                   n_fine = 1u << (dim - 1);
+      std::array<types::global_dof_index, n_fine> fine;
+      bool                                     all = true;
+      for (unsigned int k = 0; k < n_fine && all; ++k)
+        {
+          Index        fine_index;
+          unsigned int bit = 0;
+          for (unsigned int d = 0; d < dim; ++d)
+            fine_index[d] = 2 * index[d] + (d == c ? 0 : static_cast<int>((k >> bit++) & 1));
+          fine[k] = find_entry(level + 1, c, fine_index);
+          all     = fine[k] != numbers::invalid_dof_index;
+        }
+      if (all)
+        {
+          for (const types::global_dof_index f : fine)
+            result.entries.emplace_back(f, 1. / n_fine);
+          return true;
+        }
+    }
+
+    if (!interpolate || level == 0)
+      return false;
+    Index coarse;
+    return interpolate_from_coarser(level, c, index, extension, 0, coarse, result);
+  }
+
+
+
+  template <int dim>
+  bool
+  StaggeredSpace<dim>::interpolate_from_coarser(const int               level,
+                                                const unsigned int      c,
+                                                const Index            &index,
+                                                const BoundaryExtension extension,
+                                                const unsigned int      d,
+                                                Index                  &coarse,
+                                                LinearCombination<dim> &result) const
+  {
+    if (d == dim)
+      return combination(level - 1, c, coarse, extension, false, result);
+
+    // Stencils in order of preference: offsets from the base point, weights.
+    struct Stencil
+    {
+      unsigned int          size;
+      std::array<int, 3>    offset;
+      std::array<double, 3> weight;
+    };
+    const int base = (index[d] >= 0 ? index[d] / 2 : (index[d] - 1) / 2);
+    const bool odd = (index[d] - 2 * base) == 1;
+
+    std::array<Stencil, 5> stencils;
+    unsigned int           n_stencils;
+    if (d == c)
+      {
+        if (!odd)
+          {
+            stencils[0] = {1, {{0, 0, 0}}, {{1., 0., 0.}}};
+            n_stencils  = 1;
+          }
+        else
+          {
+            stencils[0] = {3, {{0, 1, 2}}, {{0.375, 0.75, -0.125}}};
+            stencils[1] = {3, {{1, 0, -1}}, {{0.375, 0.75, -0.125}}};
+            stencils[2] = {2, {{0, 1, 0}}, {{0.5, 0.5, 0.}}};
+            n_stencils  = 3;
+          }
+      }
+    else
+      {
+        const double s    = 0.25;
+        const int    near = odd ? 1 : -1; // the coarse neighbour on this side
+        stencils[0]       = {3,
+                             {{-near, 0, near}},
+                             {{0.5 * s * (s - 1), 1 - s * s, 0.5 * s * (s + 1)}}};
+        stencils[1]       = {3,
+                             {{0, near, 2 * near}},
+                             {{0.5 * (s - 1) * (s - 2), -s * (s - 2), 0.5 * s * (s - 1)}}};
+        stencils[2]       = {3,
+                             {{0, -near, -2 * near}},
+                             {{0.5 * (s + 1) * (s + 2), -s * (s + 2), 0.5 * s * (s + 1)}}};
+        stencils[3]       = {2, {{0, near, 0}}, {{1 - s, s, 0.}}};
+        stencils[4]       = {1, {{0, 0, 0}}, {{1., 0., 0.}}};
+        n_stencils        = 5;
+      }
+
+    for (unsigned int k = 0; k < n_stencils; ++k)
+      {
+        LinearCombination<dim> candidate;
+        bool                   possible = true;
+        for (unsigned int j = 0; j < stencils[k].size && possible; ++j)
+          {
+            coarse[d] = base + stencils[k].offset[j];
+            LinearCombination<dim> part;
+            possible = interpolate_from_coarser(
+              level, c, index, extension, d + 1, coarse, part);
+            if (possible)
+              candidate.add(part, stencils[k].weight[j]);
+          }
+        if (possible)
+          {
+            result.add(candidate, 1.);
+            return true;
+          }
+      }
+    return false;
+  }
+
+
+
+  template <int dim>
+  void
+  StaggeredSpace<dim>::build_copies()
+  {
+    const auto n_plane = Utilities::fixed_power<dim - 1>(n);
+    for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
+      for (unsigned int c = 0; c < dim; ++c)
+        if (patch_grid.neighbor(p, 2 * c + 1) == Neighbor::same)
+          {
+            Index offset{};
+            offset[c]              = 1;
+            const unsigned int  q  = patch_grid.neighbor_patch(p, offset);
+            const unsigned int  s  = stride(c, c);
+            const std::size_t   to = first_dof(p, c) + n * s;
+            if (q < patch_grid.n_owned_patches())
+              plane_copies.push_back({to, first_dof(q, c), c});
+            else
+              {
+                const types::global_dof_index from =
+                  patch_grid.patch(q).global_id * n_dofs_per_patch() +
+                  c * dofs_per_component;
+                for (unsigned int i = 0; i < n_plane; ++i)
+                  {
+                    const std::size_t at = (i / s) * s * (n + 1) + i % s;
+                    remote_copies.emplace_back(to + at, from + at);
+                  }
+              }
+          }
+  }
+
+
+
+  template <int dim>
+  void
+  StaggeredSpace<dim>::build_interfaces()
+  {
+    for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
+      for (unsigned int side = 0; side < 2 * dim; ++side)
+        {
+          if (patch_grid.neighbor(p, side) == Neighbor::finer)
+            coarse_interface_sides.emplace_back(p, side);
+          if (patch_grid.neighbor(p, side) != Neighbor::coarser)
+            continue;
+
+          const Patch<dim>  &patch = patch_grid.patch(p);
+          const unsigned int c     = side / 2;
+          const unsigned int s     = stride(c, c);
+          const int          plane = (side % 2 == 0 ? 0 : n);
+          for (unsigned int i = 0; i < Utilities::fixed_power<dim - 1>(n); ++i)
+            {
+              // index of the fine face on the patch and of the coarse face that has it
+              Index        fine, coarse;
+              unsigned int rest = i;
+              for (unsigned int d = 0; d < dim; ++d)
+                {
+                  if (d == c)
+                    fine[d] = plane;
+                  else
+                    {
+                      fine[d] = rest % n;
+                      rest /= n;
+                    }
+                  coarse[d] = (patch.index[d] * static_cast<int>(n) + fine[d]) / 2;
+                }
+
+              const auto value_at = [&](const Index &index, LinearCombination<dim> &value) {
+                for (unsigned int d = 0; d < dim; ++d)
+                  if (!patch_grid.periodic()[d] && d != c &&
+                      (index[d] < 0 || index[d] >= patch_grid.n_patches(patch.level - 1, d) *
+                                                     static_cast<int>(n)))
+                    return false;
+                return combination(
+                  patch.level - 1, c, index, BoundaryExtension::reflection, false, value);
+              };
+
+              LinearCombination<dim> row, center;
+              const bool             found = value_at(coarse, center);
+              AssertThrow(found, ExcInternalError());
+              row.add(center, 1.);
+              for (unsigned int d = 0; d < dim; ++d)
+                if (d != c)
+                  {
+                    const double           offset = (fine[d] % 2 == 0 ? -0.25 : 0.25);
+                    LinearCombination<dim> below, above;
+                    Index                  index = coarse;
+                    index[d]                     = coarse[d] - 1;
+                    const bool has_below         = value_at(index, below);
+                    index[d]                     = coarse[d] + 1;
+                    const bool has_above         = value_at(index, above);
+                    if (has_below && has_above)
+                      {
+                        row.add(above, 0.5 * offset);
+                        row.add(below, -0.5 * offset);
+                      }
+                    else if (has_above)
+                      {
+                        row.add(above, offset);
+                        row.add(center, -offset);
+                      }
+                    else if (has_below)
+                      {
+                        row.add(center, offset);
+                        row.add(below, -offset);
+                      }
+                  }
+              const unsigned int in_plane = (i / s) * s * (n + 1) + i % s;
+              interface_faces.append(first_dof(p, c) + plane * s + in_plane,
+                                     std::move(row));
+            }
+        }
+  }
+
+
+
+  template <int dim>
+  void
+  StaggeredSpace<dim>::build_boundary()
+  {
+    for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
+      for (unsigned int side = 0; side < 2 * dim; ++side)
+        if (patch_grid.neighbor(p, side) == Neighbor::boundary)
+          {
+            const unsigned int c     = side / 2;
+            const int          plane = (side % 2 == 0 ? 0 : n);
+            for (unsigned int i = 0; i < Utilities::fixed_power<dim - 1>(n); ++i)
+              {
+                Index        index;
+                unsigned int rest = i;
+                BoundaryFace face;
+                face.patch          = p;
+                face.side           = side;
+                face.dof            = first_dof(p, c);
+                face.cell           = 0;
+                unsigned int stride_of_cells = 1;
+                for (unsigned int d = 0; d < dim; ++d)
+                  {
+                    if (d == c)
+                      index[d] = plane;
+                    else
+                      {
+                        index[d] = rest % n;
+                        rest /= n;
+                      }
+                    face.dof += index[d] * stride(c, d);
+                    face.cell += std::min<int>(index[d], n - 1) * stride_of_cells;
+                    stride_of_cells *= n;
+                  }
+                face.x = position(p, c, index);
+                const BoundaryInfo info = kinds(side, face.x);
+                face.condition          = info.condition;
+                if (info.kind == BoundaryKind::traction)
+                  open.push_back(face);
+                else
+                  fixed.push_back(face);
+              }
+          }
+  }
+
+
+
+  template <int dim>
+  IndexSet
+  StaggeredSpace<dim>::owned_entries() const
+  {
+    const types::global_dof_index begin =
+      patch_grid.n_owned_patches() == 0 ?
+        0 :
+        patch_grid.patch(0).global_id * n_dofs_per_patch();
+    IndexSet owned(patch_grid.n_global_patches() * n_dofs_per_patch());
+    owned.add_range(begin,
+                    begin + static_cast<types::global_dof_index>(
+                              patch_grid.n_owned_patches()) *
+                              n_dofs_per_patch());
+    return owned;
+  }
+
+
+
+  template <int dim>
+  void
+  StaggeredSpace<dim>::finalize(std::vector<types::global_dof_index> &&ghosts)
+  {
+    interface_faces.collect_indices(ghosts);
+    for (const auto &copy : remote_copies)
+      ghosts.push_back(copy.second);
+
+    const IndexSet owned = owned_entries();
+    std::sort(ghosts.begin(), ghosts.end());
+    ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
+    IndexSet ghost_set(owned.size());
+    ghost_set.add_indices(ghosts.begin(), ghosts.end());
+    ghost_set.subtract_set(owned);
+    vector_partitioner = std::make_shared<Utilities::MPI::Partitioner>(
+      owned, ghost_set, patch_grid.communicator());
+
+    interface_faces.localize(*vector_partitioner);
+    remote_masters.clear();
+    for (const auto &copy : remote_copies)
+      remote_masters.push_back(vector_partitioner->global_to_local(copy.second));
+
+    // control volumes: every patch gives half a cell to its outermost faces
+    initialize_vector(master_volumes);
+    initialize_vector(free_inverse_volumes);
+    for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
+      {
+        double volume = 1.;
+        for (unsigned int d = 0; d < dim; ++d)
+          volume *= patch_grid.patch(p).h[d];
+        for (unsigned int c = 0; c < dim; ++c)
+          for (unsigned int i = 0; i < dofs_per_component; ++i)
+            {
+              const unsigned int plane = (i / stride(c, c)) % (n + 1);
+              master_volumes.local_element(first_dof(p, c) + i) =
+                (plane == 0 || plane == n) ? 0.5 * volume : volume;
+            }
+      }
+    collect(master_volumes);
+    for (unsigned int i = 0; i < free_inverse_volumes.locally_owned_size(); ++i)
+      free_inverse_volumes.local_element(i) =
+        master_volumes.local_element(i) == 0. ? 0. : 1. / master_volumes.local_element(i);
+    zero_fixed_faces(free_inverse_volumes);
+  }
+
+
+
+  template <int dim>
+  void
+  StaggeredSpace<dim>::initialize_vector(VectorType &vector) const
+  {
+    Assert(vector_partitioner, ExcMessage("finalize() must be called first."));
+    vector.reinit(vector_partitioner);
+  }
+
+
+
+  template <int dim>
+  void
+  StaggeredSpace<dim>::copy_from_masters(VectorType &u) const
+  {
+    double            *values = u.begin();
+    const unsigned int n_plane = Utilities::fixed_power<dim - 1>(n);
+    for (const PlaneCopy &copy : plane_copies)
+      {
+        const unsigned int s = stride(copy.c, copy.c);
+        for (unsigned int i = 0; i < n_plane / s; ++i)
+          for (unsigned int j = 0; j < s; ++j)
+            values[copy.copy + i * s * (n + 1) + j] =
+              values[copy.master + i * s * (n + 1) + j];
+      }
+    for (std::size_t i = 0; i < remote_copies.size(); ++i)
+      values[remote_copies[i].first] = values[remote_masters[i]];
+  }
+
+
+
+  template <int dim>
+  void
+  StaggeredSpace<dim>::follow_interfaces(VectorType &u) const
+  {
+    double *values = u.begin();
+    for (unsigned int row = 0; row < interface_faces.n_rows(); ++row)
+      values[interface_faces.destination(row)] = interface_faces.apply(row, values);
+  }
+
+
+
+  template <int dim>
+  void
+  StaggeredSpace<dim>::synchronize(VectorType &u) const
+  {
+    u.update_ghost_values();
+    copy_from_masters(u);
+    if (patch_grid.has_coarse_fine_interfaces())
+      {
+        u.update_ghost_values();
+        follow_interfaces(u);
+      }
+    u.zero_out_ghost_values();
+  }
+
+
+
+  template <int dim>
+  void
+  StaggeredSpace<dim>::collect(VectorType &f) const
+  {
+    f.zero_out_ghost_values();
+    double *values = f.begin();
+    if (patch_grid.has_coarse_fine_interfaces())
+      {
+        for (unsigned int row = 0; row < interface_faces.n_rows(); ++row)
+          {
+            const double value = values[interface_faces.destination(row)];
+            values[interface_faces.destination(row)] = 0.;
+            if (value != 0.)
+              interface_faces.apply_transpose(row, value, values);
+          }
+        f.compress(VectorOperation::add);
+      }
+    const unsigned int n_plane = Utilities::fixed_power<dim - 1>(n);
+    for (const PlaneCopy &copy : plane_copies)
+      {
+        const unsigned int s = stride(copy.c, copy.c);
+        for (unsigned int i = 0; i < n_plane / s; ++i)
+          for (unsigned int j = 0; j < s; ++j)
+            {
+              values[copy.master + i * s * (n + 1) + j] +=
+                values[copy.copy + i * s * (n + 1) + j];
+              values[copy.copy + i * s * (n + 1) + j] = 0.;
+            }
+      }
+    for (std::size_t i = 0; i < remote_copies.size(); ++i)
+      {
+        values[remote_masters[i]] += values[remote_copies[i].first];
+        values[remote_copies[i].first] = 0.;
+      }
+    f.compress(VectorOperation::add);
+  }
+
+
+
+  template <int dim>
+  void
+  StaggeredSpace<dim>::zero_fixed_faces(VectorType &u) const
+  {
+    for (const BoundaryFace &face : fixed)
+      u.local_element(face.dof) = 0.;
+  }
+
+
+
+  template struct LinearCombination<2>;
+  template struct LinearCombination<3>;
+  template class CombinationTable<2>;
+  template class CombinationTable<3>;
+  template class StaggeredSpace<2>;
+  template class StaggeredSpace<3>;
+} // namespace mitre::grid

@@ -1,0 +1,402 @@
+#include <deal.II/base/index_set.h>
+#include <deal.II/base/partitioner.h>
+#include <deal.II/base/utilities.h>
+
+#include <mitre/grid/velocity_halo.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace mitre::grid
+{
+  using namespace dealii;
+
+  namespace
+  {
+    template <int dim>
+    constexpr unsigned int
+    n_directions()
+    {
+      return dim == 2 ? 9 : 27;
+    }
+
+    template <int dim>
+    std::array<int, dim>
+    direction_offset(unsigned int direction)
+    {
+      std::array<int, dim> offset;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          offset[d] = static_cast<int>(direction % 3) - 1;
+          direction /= 3;
+        }
+      return offset;
+    }
+  } // namespace
+
+
+  template <int dim>
+  VelocityHalo<dim>::VelocityHalo(const StaggeredSpace<dim> &space,
+                                  const unsigned int         width,
+                                  const HaloShape            shape,
+                                  const BoundaryExtension    extension)
+    : space(space)
+    , n(space.grid().n_cells_per_side())
+    , g(width)
+    , halo_shape(shape)
+    , extension(extension)
+  {
+    AssertThrow(2 * g <= n,
+                ExcMessage("A halo of " + std::to_string(g) +
+                           " layers needs patches of at least " + std::to_string(2 * g) +
+                           " cells a side."));
+    build();
+  }
+
+
+
+  template <int dim>
+  std::array<unsigned int, dim>
+  VelocityHalo<dim>::extents(const unsigned int c) const
+  {
+    std::array<unsigned int, dim> result;
+    for (unsigned int d = 0; d < dim; ++d)
+      result[d] = space.extent(c, d) + 2 * g;
+    return result;
+  }
+
+
+
+  template <int dim>
+  std::size_t
+  VelocityHalo<dim>::size(const unsigned int c) const
+  {
+    std::size_t product = 1;
+    for (const unsigned int e : extents(c))
+      product *= e;
+    return product;
+  }
+
+
+
+  template <int dim>
+  void
+  VelocityHalo<dim>::build()
+  {
+    const PatchGrid<dim> &grid = space.grid();
+
+    shapes.resize(n_directions<dim>());
+    for (unsigned int direction = 0; direction < n_directions<dim>(); ++direction)
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          const auto  offset = direction_offset<dim>(direction);
+          BlockShape &shape  = shapes[direction][c];
+          shape.size         = {{1, 1, 1}};
+          shape.from         = 0;
+          shape.to           = 0;
+          std::size_t to_stride = 1;
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              const unsigned int own = space.extent(c, d);
+              unsigned int       from, to;
+              if (offset[d] == 0)
+                {
+                  shape.size[d] = own;
+                  from          = 0;
+                  to            = g;
+                }
+              else if (offset[d] < 0)
+                {
+                  shape.size[d] = g;
+                  from          = n - g;
+                  to            = 0;
+                }
+              else
+                {
+                  shape.size[d] = g;
+                  from          = own - n;
+                  to            = g + own;
+                }
+              shape.from += static_cast<std::size_t>(from) * space.stride(c, d);
+              shape.to += to * to_stride;
+              to_stride *= own + 2 * g;
+            }
+        }
+
+    block_starts  = {0};
+    single_starts = {0};
+    row_starts    = {0};
+    const unsigned int own_direction = n_directions<dim>() / 2;
+
+    std::vector<std::vector<std::pair<unsigned int, types::global_dof_index>>> singles(dim);
+    std::vector<std::vector<std::pair<unsigned int, LinearCombination<dim>>>>  combos(dim);
+
+    for (unsigned int p = 0; p < grid.n_owned_patches(); ++p)
+      {
+        const Patch<dim> &patch = grid.patch(p);
+        for (auto &list : singles)
+          list.clear();
+        for (auto &list : combos)
+          list.clear();
+        for (unsigned int direction = 0; direction < n_directions<dim>(); ++direction)
+          {
+            if (direction == own_direction)
+              continue;
+            const auto   offset = direction_offset<dim>(direction);
+            unsigned int n_nonzero = 0;
+            for (const int o : offset)
+              n_nonzero += (o != 0 ? 1 : 0);
+            if (halo_shape == HaloShape::star && n_nonzero > 1)
+              continue;
+
+            const unsigned int q = grid.neighbor_patch(p, offset);
+            if (q < grid.n_owned_patches())
+              {
+                blocks.push_back({q, static_cast<unsigned short int>(direction)});
+                continue;
+              }
+
+            for (unsigned int c = 0; c < dim; ++c)
+              {
+                const BlockShape &shape = shapes[direction][c];
+                const auto        ext   = extents(c);
+                // first entry of the block, relative to the patch's own entries
+                Index       start;
+                std::size_t rest = shape.to;
+                for (unsigned int d = 0; d < dim; ++d)
+                  {
+                    start[d] = static_cast<int>(rest % ext[d]) - static_cast<int>(g);
+                    rest /= ext[d];
+                  }
+                for (unsigned int k = 0; k < shape.size[2]; ++k)
+                  for (unsigned int j = 0; j < shape.size[1]; ++j)
+                    for (unsigned int i = 0; i < shape.size[0]; ++i)
+                      {
+                        const std::array<unsigned int, 3> ijk = {{i, j, k}};
+                        unsigned int to = shape.to, to_stride = 1, from = shape.from;
+                        Index        index;
+                        for (unsigned int d = 0; d < dim; ++d)
+                          {
+                            to += ijk[d] * to_stride;
+                            to_stride *= ext[d];
+                            from += ijk[d] * space.stride(c, d);
+                            index[d] = patch.index[d] * static_cast<int>(n) + start[d] +
+                                       static_cast<int>(ijk[d]);
+                          }
+                        if (q != numbers::invalid_unsigned_int)
+                          singles[c].emplace_back(to,
+                                                  grid.patch(q).global_id *
+                                                      space.n_dofs_per_patch() +
+                                                    c * space.n_dofs_per_component() + from);
+                        else
+                          {
+                            LinearCombination<dim> row;
+                            const bool             found = space.combination(
+                              patch.level, c, index, extension, true, row);
+                            AssertThrow(found, ExcInternalError());
+                            combos[c].emplace_back(to, std::move(row));
+                          }
+                      }
+              }
+          }
+        block_starts.push_back(blocks.size());
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            for (const auto &[to, from] : singles[c])
+              {
+                single_to.push_back(to);
+                single_from_global.push_back(from);
+              }
+            single_starts.push_back(single_to.size());
+            for (auto &[to, row] : combos[c])
+              rows.append(to, std::move(row));
+            row_starts.push_back(rows.n_rows());
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  VelocityHalo<dim>::add_ghosts(std::vector<types::global_dof_index> &ghosts) const
+  {
+    ghosts.insert(ghosts.end(), single_from_global.begin(), single_from_global.end());
+    rows.collect_indices(ghosts);
+  }
+
+
+
+  template <int dim>
+  void
+  VelocityHalo<dim>::localize(
+    const std::shared_ptr<const Utilities::MPI::Partitioner> &new_partitioner)
+  {
+    partitioner = new_partitioner;
+    single_from.resize(single_from_global.size());
+    for (std::size_t i = 0; i < single_from.size(); ++i)
+      single_from[i] = partitioner->global_to_local(single_from_global[i]);
+    single_from_global.clear();
+    single_from_global.shrink_to_fit();
+    rows.localize(*partitioner);
+  }
+
+
+
+  template <int dim>
+  void
+  VelocityHalo<dim>::make_own_partitioner()
+  {
+    const IndexSet                       owned = space.owned_entries();
+    std::vector<types::global_dof_index> ghosts;
+    add_ghosts(ghosts);
+    std::sort(ghosts.begin(), ghosts.end());
+    ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
+    IndexSet ghost_set(owned.size());
+    ghost_set.add_indices(ghosts.begin(), ghosts.end());
+    ghost_set.subtract_set(owned);
+    localize(std::make_shared<Utilities::MPI::Partitioner>(
+      owned, ghost_set, space.grid().communicator()));
+    imported.reinit(partitioner);
+    accumulator.reinit(partitioner);
+  }
+
+
+
+  template <int dim>
+  const VectorType &
+  VelocityHalo<dim>::import(const VectorType &u)
+  {
+    std::memcpy(imported.begin(), u.begin(), u.locally_owned_size() * sizeof(double));
+    imported.update_ghost_values();
+    return imported;
+  }
+
+
+
+  template <int dim>
+  void
+  VelocityHalo<dim>::set_boundary_values(
+    const std::function<double(const BoundaryTerm<dim> &)> &prescribed)
+  {
+    rows.set_boundary_values(prescribed);
+  }
+
+
+
+  template <int dim>
+  void
+  VelocityHalo<dim>::copy_block(const BlockShape  &shape,
+                                const unsigned int c,
+                                const double      *from,
+                                double            *padded) const
+  {
+    const unsigned int from_y = space.extent(c, 0), from_z = from_y * space.extent(c, 1);
+    const unsigned int to_y = from_y + 2 * g, to_z = to_y * (space.extent(c, 1) + 2 * g);
+    for (unsigned int k = 0; k < shape.size[2]; ++k)
+      for (unsigned int j = 0; j < shape.size[1]; ++j)
+        for (unsigned int i = 0; i < shape.size[0]; ++i)
+          padded[shape.to + i + j * to_y + k * to_z] =
+            from[shape.from + i + j * from_y + k * from_z];
+  }
+
+
+
+  template <int dim>
+  void
+  VelocityHalo<dim>::gather(const VectorType  &u,
+                            const unsigned int p,
+                            const unsigned int c,
+                            double            *padded,
+                            const bool         with_boundary_values) const
+  {
+    const double *values = u.begin();
+    copy_block(
+      shapes[n_directions<dim>() / 2][c], c, values + space.first_dof(p, c), padded);
+    for (unsigned int b = block_starts[p]; b < block_starts[p + 1]; ++b)
+      copy_block(shapes[blocks[b].direction][c],
+                 c,
+                 values + space.first_dof(blocks[b].patch, c),
+                 padded);
+    const std::size_t pc = static_cast<std::size_t>(p) * dim + c;
+    for (std::size_t i = single_starts[pc]; i < single_starts[pc + 1]; ++i)
+      padded[single_to[i]] = values[single_from[i]];
+    for (unsigned int row = row_starts[pc]; row < row_starts[pc + 1]; ++row)
+      padded[rows.destination(row)] = rows.apply(row, values);
+    if (with_boundary_values)
+      for (unsigned int row = row_starts[pc]; row < row_starts[pc + 1]; ++row)
+        padded[rows.destination(row)] += rows.boundary_value(row);
+  }
+
+
+
+  template <int dim>
+  void
+  VelocityHalo<dim>::begin_scatter()
+  {
+    accumulator = 0.;
+  }
+
+
+
+  template <int dim>
+  void
+  VelocityHalo<dim>::scatter_add(const unsigned int p,
+                                 const unsigned int c,
+                                 const double      *padded)
+  {
+    double            *values = accumulator.begin();
+    const unsigned int from_y = space.extent(c, 0), from_z = from_y * space.extent(c, 1);
+    const unsigned int to_y = from_y + 2 * g, to_z = to_y * (space.extent(c, 1) + 2 * g);
+    const auto         add_block = [&](const BlockShape &shape, double *from) {
+      for (unsigned int k = 0; k < shape.size[2]; ++k)
+        for (unsigned int j = 0; j < shape.size[1]; ++j)
+          for (unsigned int i = 0; i < shape.size[0]; ++i)
+            from[shape.from + i + j * from_y + k * from_z] +=
+              padded[shape.to + i + j * to_y + k * to_z];
+    };
+    add_block(shapes[n_directions<dim>() / 2][c], values + space.first_dof(p, c));
+    for (unsigned int b = block_starts[p]; b < block_starts[p + 1]; ++b)
+      add_block(shapes[blocks[b].direction][c],
+                values + space.first_dof(blocks[b].patch, c));
+    const std::size_t pc = static_cast<std::size_t>(p) * dim + c;
+    for (std::size_t i = single_starts[pc]; i < single_starts[pc + 1]; ++i)
+      values[single_from[i]] += padded[single_to[i]];
+    for (unsigned int row = row_starts[pc]; row < row_starts[pc + 1]; ++row)
+      if (padded[rows.destination(row)] != 0.)
+        rows.apply_transpose(row, padded[rows.destination(row)], values);
+  }
+
+
+
+  template <int dim>
+  void
+  VelocityHalo<dim>::end_scatter(VectorType &density, VectorType *total)
+  {
+    accumulator.compress(VectorOperation::add);
+    density.zero_out_ghost_values();
+    std::memcpy(density.begin(),
+                accumulator.begin(),
+                density.locally_owned_size() * sizeof(double));
+    space.collect(density);
+    if (total != nullptr)
+      *total = density;
+    density.scale(space.inverse_volumes());
+    space.synchronize(density);
+  }
+
+
+
+  template <int dim>
+  std::size_t
+  VelocityHalo<dim>::memory_consumption() const
+  {
+    return rows.memory_consumption() + single_to.size() * 8 + blocks.size() * 8 +
+           imported.memory_consumption() + accumulator.memory_consumption();
+  }
+
+
+
+  template class VelocityHalo<2>;
+  template class VelocityHalo<3>;
+} // namespace mitre::grid
