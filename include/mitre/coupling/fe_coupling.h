@@ -1,0 +1,122 @@
+#ifndef mitre_coupling_fe_coupling_h
+#define mitre_coupling_fe_coupling_h
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <mitre/coupling/part_points.h>
+#include <mitre/coupling/patch_loops.h>
+#include <mitre/grid/velocity_halo.h>
+
+namespace mitre::coupling
+{
+  /**
+   * How a part meets the grid, in <code>subsection Part NAME</code>.
+   */
+  struct CouplingParameters
+  {
+    /// Quadrature points for each grid spacing along an element's longest edge.
+    double point_density = 2;
+
+    std::string kernel = "IB_4";
+
+    /// Level of the grid about the part; -1: the finest.
+    int level = -1;
+
+    static void declare_parameters(dealii::ParameterHandler &prm);
+
+    void parse_parameters(dealii::ParameterHandler &prm);
+  };
+
+
+  /**
+   * Interaction of finite element bodies with the staggered velocity (2.37)-(2.44): the
+   * force density of a body is evaluated at quadrature points and spread to the faces;
+   * the velocity is interpolated to the same points and projected onto the body's shape
+   * functions. Both use the points of the last update_points(), so that they are adjoint,
+   * @f$ (S F, u)_{grid} = (F, R u)_{body} @f$.
+   *
+   * Vectors of parts are those of structure::Body, one for each part, in the order of
+   * add_part().
+   */
+  template <int dim>
+  class FECoupling
+  {
+  public:
+    explicit FECoupling(const grid::PatchGrid<dim> &grid);
+
+    /// @p body must outlive this object.
+    void add_part(const structure::Body<dim> &body, const CouplingParameters &parameters);
+
+    unsigned int n_parts() const
+    {
+      return parts.size();
+    }
+
+    const structure::Body<dim> &body(const unsigned int part) const
+    {
+      return parts[part].points->body();
+    }
+
+    /**
+     * To be called when the grid has changed, after the bodies have been distributed
+     * anew.
+     * @p halo, which must outlive the next call, has its own partitioner, full shape and
+     * a width of kernel_halo_width at least.
+     */
+    void reinit(grid::VelocityHalo<dim> &halo);
+
+    /// The ranks that own the patches at points, the same on all ranks; for
+    /// structure::Body::distribute(). Collective.
+    std::vector<unsigned int>
+    owners_of(const std::vector<dealii::Point<dim>> &points) const;
+
+    /// Find the quadrature points for the node positions @p X of each part. Collective;
+    /// errors as in PartPoints::update().
+    void update_points(const std::vector<const VectorType *> &X);
+
+    /**
+     * Nodal velocities [cm/s] from the grid velocity @p u (2.41): projections onto the
+     * shape functions of each body. On entry @p U holds a first guess, such as the
+     * velocities of the last step. Collective.
+     */
+    void interpolate(const VectorType &u, const std::vector<VectorType *> &U);
+
+    /// The right hand sides @f$\int_U \phi_a\, u^{IB}\, ds@f$ of these projections alone.
+    void compute_velocity_moments(const VectorType &u,
+                                  const std::vector<VectorType *> &moments);
+
+    /**
+     * Grid force density @p f [dyn/cm^dim] (2.40) from nodal force densities @p F
+     * [dyn/cm^dim] per reference volume. @p total, if given, receives the forces [dyn] on
+     * the faces before the division by control volumes. Collective.
+     */
+    void spread(const std::vector<const VectorType *> &F,
+                VectorType &f,
+                VectorType *total = nullptr);
+
+    /// Number of quadrature points in owned patch @p p.
+    std::size_t n_points(const unsigned int p) const;
+
+    /// Number of quadrature points on this rank.
+    std::size_t n_points() const;
+
+  private:
+    struct Part
+    {
+      CouplingParameters parameters;
+      std::unique_ptr<PartPoints<dim>> points;
+      VectorType ghosted;
+    };
+
+    const grid::PatchGrid<dim> &grid;
+    grid::VelocityHalo<dim> *halo = nullptr;
+    std::vector<Part> parts;
+    std::unique_ptr<PaddedPatch<dim>> padded;
+  };
+} // namespace mitre::coupling
+
+#endif

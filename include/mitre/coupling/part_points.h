@@ -1,0 +1,159 @@
+#ifndef mitre_coupling_part_points_h
+#define mitre_coupling_part_points_h
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <mitre/coupling/point_rules.h>
+#include <mitre/grid/patch_grid.h>
+#include <mitre/structure/body.h>
+
+namespace mitre::coupling
+{
+  using structure::VectorType;
+
+
+  /**
+   * The quadrature points of one body that lie in patches of this rank, at given node
+   * positions. A rank works on all elements that may have points in its patches; each
+   * point belongs to the one rank that owns its patch.
+   *
+   * Points are kept as runs: points of one element in one patch. Their positions follow
+   * from those of the nodes when they are needed.
+   */
+  template <int dim>
+  class PartPoints
+  {
+  public:
+    struct Run
+    {
+      unsigned int patch;
+
+      /// Local number of the element.
+      unsigned int element;
+
+      /// Number of points along an edge, which stands for the rule.
+      unsigned int k;
+
+      unsigned int n_points;
+
+      /// Where the run's points begin in weights().
+      std::size_t first_point;
+
+      /// The points of the rule: n_points from this one on, if list is false; else the
+      /// members of selected() from this one on.
+      unsigned int first : 31;
+      unsigned int list : 1;
+    };
+
+    /// @param density points for each grid spacing along the longest edge of an element
+    PartPoints(const grid::PatchGrid<dim> &grid,
+               const structure::Body<dim> &body,
+               const double density);
+
+    const structure::Body<dim> &body() const
+    {
+      return body_;
+    }
+
+    /// Forget all that depends on the grid and on the numbering of the body.
+    void reinit();
+
+    /**
+     * Find the points for node positions @p X. Linear in the number of points; elements
+     * are looked up anew only when a node has moved by more than two of the smallest grid
+     * spacings. Collective. Throws base::UserError on all ranks if a point is outside of
+     * the box, if an element is so stretched that it needs more than 64 points an edge,
+     * or if there are points that no rank has.
+     */
+    void update(const VectorType &X);
+
+    /// Runs of patch p: run_starts()[p] <= i < run_starts()[p + 1].
+    const std::vector<unsigned int> &run_starts() const
+    {
+      return run_starts_;
+    }
+
+    const std::vector<Run> &runs() const
+    {
+      return runs_;
+    }
+
+    const std::vector<std::uint16_t> &selected() const
+    {
+      return selected_;
+    }
+
+    /// Quadrature weight times reference Jacobian of each point [cm^dim].
+    const std::vector<double> &weights() const
+    {
+      return weights_;
+    }
+
+    const structure::ElementSet<dim> &elements() const
+    {
+      return elements_;
+    }
+
+    /// Node positions of update(), by local node and component.
+    const double *positions() const
+    {
+      return positions_.begin();
+    }
+
+    PointRules<dim> &rules()
+    {
+      return rules_;
+    }
+
+    std::size_t n_points() const
+    {
+      return n_points_;
+    }
+
+  private:
+    void find_elements(const VectorType &X);
+
+    void find_runs();
+
+    void find_points_one_by_one(const unsigned int i,
+                                const unsigned int k,
+                                const PointRule<dim> &rule);
+
+    bool is_in_box(const dealii::Point<dim> &x) const;
+
+    const grid::PatchGrid<dim> &grid;
+    const structure::Body<dim> &body_;
+    const double density;
+    PointRules<dim> rules_;
+
+    /// The elements that may have points here, the smallest spacing about each of them,
+    /// whether this rank counts its points, and its reference Jacobian (simplices).
+    structure::ElementSet<dim> elements_;
+    std::vector<double> spacings;
+    std::vector<bool> counted;
+    std::vector<double> jacobians;
+    bool elements_are_known = false;
+    double margin           = 0;
+    VectorType positions_at_lookup;
+
+    VectorType positions_;
+    std::vector<unsigned int> patch_hints;
+    std::vector<Run> unsorted_runs, runs_;
+    std::vector<unsigned int> run_starts_;
+    std::vector<std::uint16_t> selected_;
+    std::vector<double> weights_;
+    std::size_t n_points_ = 0;
+
+    /// Number of points that counted elements have on all ranks together, and what went
+    /// wrong.
+    std::uint64_t n_expected_points = 0;
+    std::string error;
+
+    /// Work space: patch of each point of an element.
+    std::vector<unsigned int> point_patches;
+  };
+} // namespace mitre::coupling
+
+#endif
