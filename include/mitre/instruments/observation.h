@@ -1,0 +1,47 @@
+#ifndef mitre_instruments_observation_h
+#define mitre_instruments_observation_h
+
+#include <string>
+#include <vector>
+
+#include <mitre/structure/body.h>
+
+namespace mitre::fluid
+{
+  template <int dim>
+  class NavierStokes;
+}
+
+namespace mitre::instruments
+{
+  /// A part, the positions X [cm] and the velocities U [cm/s] of its nodes.
+  template <int dim>
+  struct ObservedPart
+  {
+    const structure::Body<dim> *body;
+    const structure::VectorType *X;
+    const structure::VectorType *U;
+  };
+
+
+  /// What instruments see of a run at a time.
+  template <int dim>
+  struct Observation
+  {
+    /// [s]
+    double time = 0;
+
+    /// The step that led here [s]; 0 at the start.
+    double dt = 0;
+
+    const fluid::NavierStokes<dim> *fluid = nullptr;
+
+    std::vector<ObservedPart<dim>> parts;
+
+    /// The part @p name; base::UserError, which names @p instrument, if there is none.
+    const ObservedPart<dim> &find_part(const std::string &name,
+                                       const std::string &instrument) const;
+  };
+} // namespace mitre::instruments
+
+#endif

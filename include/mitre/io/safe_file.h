@@ -1,0 +1,38 @@
+#ifndef mitre_io_safe_file_h
+#define mitre_io_safe_file_h
+
+#include <deal.II/base/mpi.h>
+
+#include <functional>
+#include <ostream>
+#include <string>
+
+namespace mitre::io
+{
+  /**
+   * Write a file under a temporary name and give it its own one when it is complete, so
+   * that whoever reads @p file_name finds the old file or all of the new one. Throws
+   * base::UserError, with the file and the system's reason, if that does not succeed; a
+   * file of that name is then as it was.
+   */
+  void write_file(const std::string &file_name,
+                  const std::function<void(std::ostream &)> &write);
+
+
+  /// Make a folder and those that it lies in, as far as they do not exist. Throws
+  /// base::UserError, with the folder and the system's reason.
+  void make_folder(const std::string &folder);
+
+
+  /// "Cannot write FILE: No space left on device.", from the value of errno.
+  std::string describe_write_error(const std::string &file_name, const int error_number);
+
+
+  /**
+   * Call @p action, and throw base::UserError on all ranks if it does so on any: the
+   * first message there is. Collective.
+   */
+  void call_together(const MPI_Comm communicator, const std::function<void()> &action);
+} // namespace mitre::io
+
+#endif

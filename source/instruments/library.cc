@@ -1,0 +1,34 @@
+#include <mitre/instruments/energy.h>
+#include <mitre/instruments/flow_meter.h>
+#include <mitre/instruments/instrument.h>
+#include <mitre/instruments/part_extent.h>
+#include <mitre/instruments/part_volume.h>
+#include <mitre/instruments/pressure_station.h>
+
+namespace mitre::instruments
+{
+  template <int dim>
+  const base::PluginRegistry<Instrument<dim>> &instrument_registry()
+  {
+    static const auto registry = [] {
+      base::PluginRegistry<Instrument<dim>> instruments("instrument");
+      instruments.template add<FlowMeter<dim>>(
+        "flow meter", "volume flow through a disc, and the volumes that have passed");
+      instruments.template add<PressureStation<dim>>("pressure station",
+                                                     "mean pressure over a disc");
+      instruments.template add<PartExtent<dim>>(
+        "part extent", "smallest and largest coordinate of a part along an axis");
+      instruments.template add<PartVolume<dim>>(
+        "part volume",
+        "deformed over reference volume of a part, smallest and largest J");
+      instruments.template add<Energy<dim>>(
+        "energy", "kinetic energy of the fluid and strain energy of the parts");
+      return instruments;
+    }();
+    return registry;
+  }
+
+
+  template const base::PluginRegistry<Instrument<2>> &instrument_registry();
+  template const base::PluginRegistry<Instrument<3>> &instrument_registry();
+} // namespace mitre::instruments
