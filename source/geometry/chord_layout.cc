@@ -11,7 +11,8 @@ namespace mitre::geometry
   {
     constexpr double spacing =
       0.01; // of the points that a centreline is computed with (cm)
-    constexpr double rounding = 0.06;
+    constexpr double rounding = 0.06; // standard deviation of the filter (cm)
+    constexpr double widening = 0.4;  // way on which a chord becomes flat (cm)
 
     double polyline_length(const std::vector<Point3> &points,
                            const std::size_t begin,
@@ -86,11 +87,13 @@ namespace mitre::geometry
       path.insertion = path.points.size() - 1;
 
       const double phi = shape.fraction(chord.leaflet, chord.s);
+      const double run_in =
+        parameters.run_in * (chord.v * shape.length(phi) - parameters.root_gap);
       const unsigned int n_run_in =
-        static_cast<unsigned int>(std::ceil(parameters.run_in / spacing));
+        static_cast<unsigned int>(std::ceil(run_in / spacing));
       for (unsigned int i = 1; i <= n_run_in; ++i)
-        path.points.push_back(shape.start(
-          phi, chord.v - i * parameters.run_in / (n_run_in * shape.length(phi))));
+        path.points.push_back(
+          shape.start(phi, chord.v - i * run_in / (n_run_in * shape.length(phi))));
 
       // One sweep of the filter (1, 2, 1)/4 has the variance spacing^2 / 2.
       const unsigned int n_sweeps =
@@ -105,6 +108,48 @@ namespace mitre::geometry
                 0.25 * old[i - 1][d] + 0.5 * old[i][d] + 0.25 * old[i + 1][d];
         }
       return path;
+    }
+
+
+    void set_sections(Chord &chord,
+                      const MitralValveParameters &parameters,
+                      const LeafletShape &shape,
+                      const Path &path)
+    {
+      const double before = polyline_length(path.points, 0, path.insertion);
+      const double total  = polyline_length(path.points, 0, path.points.size() - 1);
+      const unsigned int n =
+        std::max(2, static_cast<int>(std::lround(total / parameters.chord_element_size)));
+      const std::vector<Point3> centres = resample(path.points, n);
+
+      const double phi  = shape.fraction(chord.leaflet, chord.s);
+      const double side = std::sqrt(parameters.chord_area);
+      chord.sections.resize(n + 1);
+      chord.insertion_section = n;
+      // From the end inside the leaflet, where the leaflet says how the section lies, to
+      // the anchor, on the way to which it turns as little as possible.
+      for (unsigned int i = n + 1; i-- > 0;)
+        {
+          RodSection &section = chord.sections[i];
+          const double inside = total * i / n - before;
+          const double v      = chord.v - std::max(0., inside) / shape.length(phi);
+          const double t      = std::clamp(inside / widening, 0., 1.);
+          section.centre      = centres[i];
+          section.width  = side + t * t * (3 - 2 * t) * (parameters.run_in_width - side);
+          section.height = parameters.chord_area / section.width;
+          if (inside >= 0 || i == n)
+            {
+              const double eps = 1e-4;
+              section.across   = shape.start(phi + eps, v) - shape.start(phi - eps, v);
+              chord.insertion_section = i;
+            }
+          else
+            section.across = chord.sections[i + 1].across;
+          const Vector3 tangent =
+            centres[std::min(i + 1, n)] - centres[i > 0 ? i - 1 : 0];
+          section.across -= (section.across * tangent) / tangent.norm_square() * tangent;
+          section.across /= section.across.norm();
+        }
     }
 
 
@@ -126,11 +171,8 @@ namespace mitre::geometry
             path                = make_path(chord, parameters, shape, middle);
             (length(path) < wanted ? lower : upper) = middle;
           }
-      chord.length         = length(path);
-      const double total   = polyline_length(path.points, 0, path.points.size() - 1);
-      const unsigned int n = std::max(
-        2, static_cast<int>(std::ceil(total / parameters.chord_element_size - 0.1)));
-      chord.centreline = resample(path.points, n);
+      chord.length = length(path);
+      set_sections(chord, parameters, shape, path);
     }
   } // namespace
 

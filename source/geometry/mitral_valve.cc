@@ -104,7 +104,7 @@ namespace mitre::geometry
     for (const Chord &chord : chords)
       {
         BlockLayout layout;
-        layout.n_cells         = {{static_cast<unsigned int>(chord.centreline.size() - 1),
+        layout.n_cells         = {{static_cast<unsigned int>(chord.sections.size() - 1),
                                    parameters.chord_cells_across,
                                    parameters.chord_cells_across}};
         layout.fibre_direction = 0;
@@ -112,11 +112,7 @@ namespace mitre::geometry
           return chord.leaflet == Leaflet::anterior ? anterior_chordae
                                                         : posterior_chordae;
         };
-        mesh.append(
-          build_rod(layout,
-                    chord.centreline,
-                    std::sqrt(parameters.chord_area),
-                    dealii::cross_product_3d(chord.insertion - chord.anchor, chord.bow)));
+        mesh.append(build_rod(layout, chord.sections));
       }
     return mesh;
   }
@@ -268,10 +264,11 @@ namespace mitre::geometry
       for (unsigned int j = 0; j <= 40; ++j)
         skirt.push_back(shape.start(i / 180., j / 40.));
     for (const Chord &chord : chords)
-      for (const Point3 &x : chord.centreline)
-        if (x.distance(chord.insertion) > 0.5)
+      for (unsigned int i = 0; i < chord.insertion_section; ++i)
+        if (chord.sections[i].centre.distance(chord.insertion) > 0.5)
           for (const Point3 &y : skirt)
-            m.chord_to_leaflet = std::min(m.chord_to_leaflet, x.distance(y));
+            m.chord_to_leaflet =
+              std::min(m.chord_to_leaflet, chord.sections[i].centre.distance(y));
     return m;
   }
 } // namespace mitre::geometry

@@ -34,27 +34,27 @@ namespace mitre::geometry
          "y of the tube axis, which is also the centre of the annulus (cm)."},
         {"Annulus", "Axis z", &P::axis_z, 4.0, 0., 100.,
          "z of the tube axis (cm)."},
-        {"Annulus", "Anterior-posterior diameter", &P::annulus_ap_diameter, 3.0, 1., 8.,
+        {"Annulus", "Anterior-posterior diameter", &P::annulus_ap_diameter, 2.9, 1., 8.,
          "Width of the annulus in y (cm)."},
         {"Annulus", "Commissural diameter", &P::annulus_comm_diameter, 3.9, 1., 8.,
          "Width of the annulus in z (cm)."},
         {"Annulus", "Saddle ratio", &P::saddle_ratio, 0.17, 0., 0.4,
          "Height of the saddle divided by the commissural diameter (1)."},
-        {"Annulus", "Anterior fraction", &P::anterior_fraction, 0.36, 0.2, 0.6,
+        {"Annulus", "Anterior fraction", &P::anterior_fraction, 0.38, 0.2, 0.6,
          "Part of the annulus' length that carries the anterior leaflet (1)."},
 
-        {"Leaflets", "Anterior length", &P::anterior_length, 2.5, 0.3, 6.,
+        {"Leaflets", "Anterior length", &P::anterior_length, 2.75, 0.3, 6.,
          "Length from the annulus to the free edge in the middle of the anterior leaflet (cm)."},
-        {"Leaflets", "Posterior length", &P::posterior_length, 1.6, 0.3, 6.,
+        {"Leaflets", "Posterior length", &P::posterior_length, 1.85, 0.3, 6.,
          "The same for the posterior leaflet (cm)."},
-        {"Leaflets", "Commissural length", &P::commissural_length, 0.9, 0.2, 6.,
+        {"Leaflets", "Commissural length", &P::commissural_length, 1.1, 0.2, 6.,
          "The same at the commissures (cm)."},
-        {"Leaflets", "Anterior fullness", &P::anterior_fullness, 2.0, 0.7, 8.,
+        {"Leaflets", "Anterior fullness", &P::anterior_fullness, 2.6, 0.7, 8.,
          "Exponent p of the length's way from the middle (s = 0) to the commissures (s = 1): "
          "commissural + (middle - commissural) cos^2(pi/2 |s|^p). Larger is fuller (1)."},
-        {"Leaflets", "Posterior fullness", &P::posterior_fullness, 3.0, 0.7, 8.,
+        {"Leaflets", "Posterior fullness", &P::posterior_fullness, 5.0, 0.7, 8.,
          "The same for the posterior leaflet (1)."},
-        {"Leaflets", "Scallop depth", &P::scallop_depth, 0.06, 0., 0.4,
+        {"Leaflets", "Scallop depth", &P::scallop_depth, 0.05, 0., 0.4,
          "Part of the posterior length that is missing in the two clefts between its three "
          "scallops (1)."},
         {"Leaflets", "Thickness", &P::leaflet_thickness, 0.1, 0.005, 0.5,
@@ -64,20 +64,20 @@ namespace mitre::geometry
         {"Leaflets", "Layers", &P::leaflet_layers, 1, 1, 20,
          "Layers of elements through the thickness."},
 
-        {"Start shape", "Orifice anterior-posterior width", &P::orifice_ap_width, 1.5, 0.1, 6.,
+        {"Start shape", "Orifice anterior-posterior width", &P::orifice_ap_width, 1.6, 0.1, 6.,
          "Width in y of the ellipse on which the free edge lies when looked at along x (cm)."},
-        {"Start shape", "Orifice commissural width", &P::orifice_comm_width, 3.0, 0.1, 6.,
+        {"Start shape", "Orifice commissural width", &P::orifice_comm_width, 3.2, 0.1, 6.,
          "Width of that ellipse in z (cm)."},
         {"Start shape", "Orifice centre", &P::orifice_centre, 0.0, -2., 2.,
          "y of the ellipse's centre relative to the tube axis (cm)."},
-        {"Start shape", "Profile angle", &P::profile_angle, 15., 0., 45.,
+        {"Start shape", "Profile angle", &P::profile_angle, 5., 0., 45.,
          "A leaflet's section from annulus to free edge is an arc of a circle; angle between "
          "the arc's end tangents and its chord (degrees). It makes the funnel a bell mouth."},
 
         {"Closed shape", "Coaptation position", &P::coaptation_position, 0.33, 0.1, 0.9,
          "Distance between the middle of the coaptation line and the posterior annulus, divided "
          "by the anterior-posterior diameter (1)."},
-        {"Closed shape", "Coaptation depth", &P::coaptation_depth, 0.25, -1., 2.,
+        {"Closed shape", "Coaptation depth", &P::coaptation_depth, 0.4, -1., 2.,
          "Depth of the middle of the coaptation line below the annular mean plane (cm)."},
         {"Closed shape", "Minimum coaptation height", &P::minimum_coaptation_height, 0.3, 0., 2.,
          "Shortest acceptable length of leaflet left for coaptation when the leaflet is "
@@ -94,7 +94,7 @@ namespace mitre::geometry
         {"Chordae", "Slack", &P::chord_slack, 1.0, 0.8, 1.3,
          "Length of a chord divided by the distance between its papillary anchor and its "
          "insertion in the assumed closed valve (1)."},
-        {"Chordae", "Papillary depth", &P::papillary_depth, 3.2, 0.5, 10.,
+        {"Chordae", "Papillary depth", &P::papillary_depth, 3.5, 0.5, 10.,
          "Depth of the papillary tips below the annular mean plane (cm)."},
         {"Chordae", "Papillary distance", &P::papillary_distance, 3.9, 0.5, 8.,
          "Distance between the two papillary tips, in z (cm)."},
@@ -103,9 +103,15 @@ namespace mitre::geometry
         {"Chordae", "Tip radius", &P::tip_radius, 0.3, 0., 1.,
          "The chordae of a papillary tip start from a half circle of this radius, on the side "
          "that faces the valve (cm)."},
-        {"Chordae", "Run-in", &P::run_in, 0.15, 0., 0.5,
-         "Length that a chord runs inside the leaflet, from its insertion towards the annulus "
-         "(cm)."},
+        {"Chordae", "Run-in", &P::run_in, 1.0, 0.02, 1.,
+         "Chordae run on inside the leaflet, along its meridian towards the annulus: part of the "
+         "way from the insertion to 'Root gap' before the annulus. The ribs that they form carry "
+         "the load between annulus and free edge, where the leaflets have no fibres (1)."},
+        {"Chordae", "Run-in width", &P::run_in_width, 0.25, 0.01, 1.,
+         "Width in the plane of the leaflet that a chord takes there at constant area (cm)."},
+        {"Chordae", "Root gap", &P::root_gap, 0.25, 0., 2.,
+         "Distance from the annulus at which the chordae end, so that the leaflets can turn "
+         "about their roots (cm)."},
         {"Chordae", "Anchor length", &P::anchor_length, 0.2, 0., 1.,
          "Length by which a chord is prolonged beyond its papillary anchor, to be held there "
          "(cm)."},
@@ -301,10 +307,11 @@ namespace mitre::geometry
     require(annulus_x + papillary_depth + anchor_length < tube_length,
             &P::papillary_depth,
             "such that the papillary tips lie inside the tube");
-    require(run_in < commissural_length,
-            &P::run_in,
-            "smaller than 'Leaflets/Commissural length' (" + cm(commissural_length) +
-              ")");
+    require(
+      root_gap < 0.8 * strut_position * commissural_length,
+      &P::root_gap,
+      "smaller than 0.8 'Chordae/Strut position' times 'Leaflets/Commissural length' (" +
+        cm(commissural_length) + ")");
     require(radius + tube_thickness <= axis_y && radius + tube_thickness <= axis_z,
             &P::tube_thickness,
             "such that the tube stays at positive y and z ('Annulus/Axis y' is " +

@@ -114,12 +114,9 @@ namespace mitre::geometry
   }
 
 
-  TetMesh build_rod(const BlockLayout &layout,
-                    const std::vector<Point3> &centreline,
-                    const double side,
-                    const Vector3 &side_direction)
+  TetMesh build_rod(const BlockLayout &layout, const std::vector<RodSection> &sections)
   {
-    const unsigned int n = centreline.size();
+    const unsigned int n = sections.size();
     Assert(n == layout.n_cells[0] + 1,
            dealii::ExcDimensionMismatch(n, layout.n_cells[0] + 1));
     const auto unit = [](const Vector3 &v) { return v / v.norm(); };
@@ -127,18 +124,20 @@ namespace mitre::geometry
     std::vector<Vector3> first(n), second(n);
     for (unsigned int i = 0; i < n; ++i)
       {
-        const Vector3 before =
-          i > 0 ? unit(centreline[i] - centreline[i - 1]) : Vector3();
-        const Vector3 after =
-          i + 1 < n ? unit(centreline[i + 1] - centreline[i]) : Vector3();
-        const Vector3 tangent  = unit(before + after);
-        const Vector3 previous = i > 0 ? first[i - 1] : side_direction;
-        first[i]               = unit(previous - (previous * tangent) * tangent);
-        second[i]              = dealii::cross_product_3d(tangent, first[i]);
+        Vector3 tangent;
+        if (i > 0)
+          tangent += unit(sections[i].centre - sections[i - 1].centre);
+        if (i + 1 < n)
+          tangent += unit(sections[i + 1].centre - sections[i].centre);
+        tangent               = unit(tangent);
+        const Vector3 &across = sections[i].across;
+        first[i]              = unit(across - (across * tangent) * tangent);
+        second[i]             = dealii::cross_product_3d(tangent, first[i]);
       }
     return build_block(layout, [&](unsigned int i, unsigned int j, unsigned int k) {
-      return centreline[i] + side * (double(j) / layout.n_cells[1] - 0.5) * first[i] +
-             side * (double(k) / layout.n_cells[2] - 0.5) * second[i];
+      return sections[i].centre +
+             sections[i].width * (double(j) / layout.n_cells[1] - 0.5) * first[i] +
+             sections[i].height * (double(k) / layout.n_cells[2] - 0.5) * second[i];
     });
   }
 } // namespace mitre::geometry

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <mitre/geometry/leaflet_shape.h>
+#include <mitre/geometry/tet_mesh.h>
 
 namespace mitre::geometry
 {
@@ -23,7 +24,9 @@ namespace mitre::geometry
 
     /** From the held end behind the anchor to the end inside the leaflet, evenly spaced.
      */
-    std::vector<Point3> centreline;
+    std::vector<RodSection> sections;
+    /** First section inside the leaflet. */
+    unsigned int insertion_section = 0;
     /** Direction away from the tube axis into which it is bowed. */
     Vector3 bow;
 
@@ -41,9 +44,11 @@ namespace mitre::geometry
    * distance between anchor and closed insertion. Where that is less than the start
    * distance the chord is straight, and its ratio larger than the slack asked for.
    *
-   * The corners, to the run-in that follows the leaflet's mid surface, are rounded by a
-   * binomial filter (standard deviation 0.06 cm); the arc is chosen such that the length
-   * is right after rounding.
+   * Inside the leaflet a chord follows the meridian towards the annulus; its section
+   * turns from a square to a flat rectangle of the same area in the plane of the leaflet.
+   *
+   * Corners are rounded by a binomial filter (standard deviation 0.06 cm); the arc is
+   * chosen such that the length is right after rounding.
    */
   std::vector<Chord> compute_chord_layout(const MitralValveParameters &parameters,
                                           const LeafletShape &shape);

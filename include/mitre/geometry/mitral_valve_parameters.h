@@ -62,6 +62,8 @@ namespace mitre::geometry
     double papillary_offset          = 0;
     double tip_radius                = 0;
     double run_in                    = 0;
+    double run_in_width              = 0;
+    double root_gap                  = 0;
     double anchor_length             = 0;
     double bow_downstream            = 0;
     double chord_element_size        = 0;

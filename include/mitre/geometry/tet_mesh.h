@@ -73,15 +73,20 @@ namespace mitre::geometry
                       double thickness,
                       const std::function<Point3(double, double)> &surface);
 
+  /** Rectangular section of a rod. */
+  struct RodSection
+  {
+    Point3 centre;
+    Vector3 across; // direction of the width; its part along the rod is ignored
+    double width = 0, height = 0;
+  };
+
   /**
-   * Rod of square section with the given side, swept along the polyline @p centreline
-   * (one node section a point). The section turns as little as possible; @p
-   * side_direction fixes it at the first point.
+   * Rod through the given sections, which are the n_cells[0] + 1 layers of nodes; a
+   * section is normal to the mean direction of the two pieces of centreline that meet
+   * there.
    */
-  TetMesh build_rod(const BlockLayout &layout,
-                    const std::vector<Point3> &centreline,
-                    double side,
-                    const Vector3 &side_direction);
+  TetMesh build_rod(const BlockLayout &layout, const std::vector<RodSection> &sections);
 } // namespace mitre::geometry
 
 #endif
