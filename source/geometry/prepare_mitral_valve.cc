@@ -216,6 +216,13 @@ namespace mitre::geometry
                  tip[2],
                  parameters.tip_radius);
         }
+      text += line(
+        "Region that holds them there: (x-%g)^2 + (y-%g)^2 + (abs(z-%g)-%g)^2 < %g^2\n",
+        papillary_tip(parameters, 1)[0],
+        papillary_tip(parameters, 1)[1],
+        parameters.axis_z,
+        0.5 * parameters.papillary_distance,
+        parameters.tip_radius + 0.15);
       if (m.area_ratio() < 2 || m.area_ratio() > 2.5)
         text +=
           "WARNING: the leaflets' area should be 2 to 2.5 times the annulus' area.\n";
