@@ -80,6 +80,7 @@ namespace mitre::base
       std::string value;
       std::string file;
       unsigned int line;
+      bool is_overridden = false; // by a later statement about the same parameter
 
       std::string place() const
       {
@@ -301,7 +302,7 @@ namespace mitre::base
       const std::string pattern = parameter->get<std::string>("pattern_description", "");
       std::string value         = statement.value;
       std::string problem;
-      if (!value.empty() &&
+      if (!value.empty() && !statement.is_overridden &&
           (pattern == "[InputFile]" || pattern == "[FileName (Type: input)]"))
         try
           {
@@ -344,10 +345,25 @@ namespace mitre::base
     }
 
 
-    void parse_statements(const std::vector<Statement> &statements,
+    // Files that a parameter named before another value replaced them need not exist.
+    std::vector<Statement> mark_overridden(std::vector<Statement> statements)
+    {
+      for (std::size_t i = 0; i < statements.size(); ++i)
+        for (std::size_t j = i + 1; j < statements.size(); ++j)
+          if (!statements[i].is_section && !statements[j].is_section &&
+              statements[i].path == statements[j].path &&
+              statements[i].name == statements[j].name)
+            statements[i].is_overridden = true;
+      return statements;
+    }
+
+
+    void parse_statements(const std::vector<Statement> &all_statements,
                           ParameterHandler &prm,
                           const std::function<void(ParameterHandler &)> &declare)
     {
+      const std::vector<Statement> statements = mark_overridden(all_statements);
+
       // Put what the file says where declare_and_read() finds it...
       for (const Statement &statement : statements)
         if (!statement.is_section)

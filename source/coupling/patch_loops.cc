@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include <mitre/coupling/kernels.h>
 #include <mitre/coupling/patch_loops.h>
@@ -44,24 +45,30 @@ namespace mitre::coupling
     /// Eight doubles that need not be aligned.
     using EightDoubles = double __attribute__((vector_size(64), aligned(8), may_alias));
 
+    // Copies rather than casts of pointers: with those, gcc 12 takes stores of vectors
+    // and loads of the same doubles for independent of each other, and reorders them.
     inline EightDoubles load_eight(const double *values)
     {
-      return *reinterpret_cast<const EightDoubles *>(values);
+      EightDoubles vector;
+      std::memcpy(&vector, values, sizeof(vector));
+      return vector;
     }
 
     inline void store_eight(double *values, const EightDoubles vector)
     {
-      *reinterpret_cast<EightDoubles *>(values) = vector;
+      std::memcpy(values, &vector, sizeof(vector));
     }
 
     inline FourDoubles load_four(const double *values)
     {
-      return *reinterpret_cast<const FourDoubles *>(values);
+      FourDoubles vector;
+      std::memcpy(&vector, values, sizeof(vector));
+      return vector;
     }
 
     inline void store_four(double *values, const FourDoubles vector)
     {
-      *reinterpret_cast<FourDoubles *>(values) = vector;
+      std::memcpy(values, &vector, sizeof(vector));
     }
 
 
@@ -354,7 +361,7 @@ namespace mitre::coupling
                      const PaddedPatch<dim> &velocity,
                      double *moments)
     {
-      Chunk<dim> chunk;
+      static thread_local Chunk<dim> chunk;
       for_each_chunk<dim, n_nodes>(
         points, p, chunk, [&](const RunInChunk<dim> *parts, const unsigned int n_parts) {
           // Step 1: velocities at the points.
@@ -398,7 +405,7 @@ namespace mitre::coupling
                 const double *densities,
                 PaddedPatch<dim> &force)
     {
-      Chunk<dim> chunk;
+      static thread_local Chunk<dim> chunk;
       for_each_chunk<dim, n_nodes>(
         points, p, chunk, [&](const RunInChunk<dim> *parts, const unsigned int n_parts) {
           // Step 1: forces at the points.

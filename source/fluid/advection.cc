@@ -1,17 +1,16 @@
-#include <mitre/base/exceptions.h>
-#include <mitre/fluid/advection.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include <mitre/base/exceptions.h>
+#include <mitre/fluid/advection.h>
 
 namespace mitre::fluid
 {
   using namespace dealii;
   using grid::VectorType;
 
-  AdvectionScheme
-  advection_scheme(const std::string &name)
+  AdvectionScheme advection_scheme(const std::string &name)
   {
     if (name == "PPM")
       return AdvectionScheme::ppm;
@@ -29,8 +28,7 @@ namespace mitre::fluid
   namespace
   {
     /// Slope between neighbours, limited so that no new extremum arises.
-    inline double
-    limited_slope(const double below, const double here, const double above)
+    inline double limited_slope(const double below, const double here, const double above)
     {
       const double down = here - below, up = above - here;
       const double bound = 2. * std::min(std::abs(down), std::abs(up));
@@ -51,21 +49,21 @@ namespace mitre::fluid
       if constexpr (scheme == AdvectionScheme::ppm)
         {
           const double below = *(q - s), above = q[s];
-          const double slope = limited_slope(below, here, above);
+          const double slope       = limited_slope(below, here, above);
           const double slope_below = limited_slope(*(q - 2 * s), below, here);
           const double slope_above = limited_slope(here, above, q[2 * s]);
-          double       a = 0.5 * (below + here) - (slope - slope_below) / 6.;
-          double       b = 0.5 * (here + above) - (slope_above - slope) / 6.;
+          double a                 = 0.5 * (below + here) - (slope - slope_below) / 6.;
+          double b                 = 0.5 * (here + above) - (slope_above - slope) / 6.;
 
-          const bool   extremum = (b - here) * (here - a) <= 0.;
+          const bool extremum = (b - here) * (here - a) <= 0.;
           const double range = b - a, middle = here - 0.5 * (a + b);
           const double a_steep = 3. * here - 2. * b, b_steep = 3. * here - 2. * a;
-          const bool   low  = range * middle > range * range / 6.;
-          const bool   high = -range * range / 6. > range * middle;
-          a                 = extremum ? here : (low ? a_steep : a);
-          b                 = extremum ? here : (high ? b_steep : b);
-          lower             = a;
-          upper             = b;
+          const bool low  = range * middle > range * range / 6.;
+          const bool high = -range * range / 6. > range * middle;
+          a               = extremum ? here : (low ? a_steep : a);
+          b               = extremum ? here : (high ? b_steep : b);
+          lower           = a;
+          upper           = b;
         }
       else if constexpr (scheme == AdvectionScheme::cui)
         {
@@ -73,11 +71,11 @@ namespace mitre::fluid
           // (q_down - q_up), limited to be bounded
           const auto face = [](const double up, const double center, const double down) {
             const double range = down - up;
-            const double r     = (center - up) / (std::abs(range) > 1e-300 ? range : 1e-300);
-            double       f     = 5. / 6. * r + 1. / 3.;
-            f                  = r <= 2. / 13. ? 3. * r : f;
-            f                  = r > 4. / 5. ? 1. : f;
-            f                  = (r <= 0. || r >= 1.) ? r : f;
+            const double r = (center - up) / (std::abs(range) > 1e-300 ? range : 1e-300);
+            double f       = 5. / 6. * r + 1. / 3.;
+            f              = r <= 2. / 13. ? 3. * r : f;
+            f              = r > 4. / 5. ? 1. : f;
+            f              = (r <= 0. || r >= 1.) ? r : f;
             return std::abs(range) > 1e-300 ? up + f * range : center;
           };
           upper = face(*(q - s), here, q[s]);
@@ -94,7 +92,7 @@ namespace mitre::fluid
 
   template <int dim>
   Advection<dim>::Advection(const grid::StaggeredSpace<dim> &space,
-                            const AdvectionScheme            scheme)
+                            const AdvectionScheme scheme)
     : space(space)
     , scheme(scheme)
     , halo(space, 3, grid::HaloShape::star, grid::BoundaryExtension::reflection)
@@ -103,16 +101,14 @@ namespace mitre::fluid
   }
 
 
-
   template <int dim>
   template <AdvectionScheme scheme>
-  void
-  Advection<dim>::apply_scheme(VectorType       &dst,
-                               const VectorType &imported,
-                               const bool        inhomogeneous) const
+  void Advection<dim>::apply_scheme(VectorType &dst,
+                                    const VectorType &imported,
+                                    const bool inhomogeneous) const
   {
     const grid::PatchGrid<dim> &patch_grid = space.grid();
-    const int                   g          = halo.width();
+    const int g                            = halo.width();
 
     std::array<std::vector<double>, dim> padded;
     for (unsigned int c = 0; c < dim; ++c)
@@ -127,8 +123,8 @@ namespace mitre::fluid
 
         for (unsigned int c = 0; c < dim; ++c)
           {
-            const auto               e = halo.extents(c);
-            std::array<int, 3>       size{{1, 1, 1}};
+            const auto e = halo.extents(c);
+            std::array<int, 3> size{{1, 1, 1}};
             std::array<std::ptrdiff_t, 3> stride{{1, 1, 1}};
             for (unsigned int d = 0; d < dim; ++d)
               {
@@ -138,8 +134,8 @@ namespace mitre::fluid
             std::ptrdiff_t first = 0;
             for (unsigned int d = 0; d < dim; ++d)
               first += g * stride[d];
-            const double *q   = padded[c].data() + first;
-            double       *out = dst.begin() + space.first_dof(p, c);
+            const double *q            = padded[c].data() + first;
+            double *out                = dst.begin() + space.first_dof(p, c);
             const std::ptrdiff_t out_y = size[0],
                                  out_z = static_cast<std::ptrdiff_t>(size[0]) * size[1];
 
@@ -156,14 +152,14 @@ namespace mitre::fluid
                       const std::ptrdiff_t row =
                         j * stride[1] + (dim == 3 ? k * stride[2] : 0);
                       const double *line = q + row;
-                      double       *lo = lower.data() + first + row,
-                             *up       = upper.data() + first + row;
+                      double *lo         = lower.data() + first + row,
+                             *up         = upper.data() + first + row;
                       for (int i = begin[0]; i < end[0]; ++i)
                         reconstruct<scheme>(line + i, stride[d], *(lo + i), *(up + i));
                     }
 
                 // advecting velocity, and upwinding
-                const auto                    ed = halo.extents(d);
+                const auto ed = halo.extents(d);
                 std::array<std::ptrdiff_t, 3> stride_d{{1, 1, 1}};
                 for (unsigned int b = 1; b < dim; ++b)
                   stride_d[b] = stride_d[b - 1] * ed[b - 1];
@@ -184,7 +180,7 @@ namespace mitre::fluid
                       const double *a =
                         advecting + j * stride_d[1] + (dim == 3 ? k * stride_d[2] : 0);
                       const double *lo = lower.data() + row, *up = upper.data() + row;
-                      double       *f  = flux.data() + row;
+                      double *f = flux.data() + row;
                       for (int i = begin[0]; i < end[0]; ++i)
                         {
                           const double speed = 0.5 * (*(a + i - back) + a[i]);
@@ -216,12 +212,10 @@ namespace mitre::fluid
   }
 
 
-
   template <int dim>
-  void
-  Advection<dim>::apply(
-    VectorType                                                   &dst,
-    const VectorType                                             &u,
+  void Advection<dim>::apply(
+    VectorType &dst,
+    const VectorType &u,
     const std::function<double(const grid::BoundaryTerm<dim> &)> &prescribed)
   {
     if (scheme == AdvectionScheme::none)
@@ -231,8 +225,8 @@ namespace mitre::fluid
       }
     if (prescribed)
       halo.set_boundary_values(prescribed);
-    const VectorType &imported      = halo.import(u);
-    const bool        inhomogeneous = static_cast<bool>(prescribed);
+    const VectorType &imported = halo.import(u);
+    const bool inhomogeneous   = static_cast<bool>(prescribed);
     if (scheme == AdvectionScheme::ppm)
       apply_scheme<AdvectionScheme::ppm>(dst, imported, inhomogeneous);
     else if (scheme == AdvectionScheme::cui)
@@ -243,7 +237,6 @@ namespace mitre::fluid
     if (space.grid().has_coarse_fine_interfaces())
       space.synchronize(dst);
   }
-
 
 
   template class Advection<2>;

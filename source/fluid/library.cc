@@ -6,8 +6,7 @@
 namespace mitre::fluid
 {
   template <int dim>
-  const base::PluginRegistry<BoundaryCondition<dim>> &
-  boundary_condition_registry()
+  const base::PluginRegistry<BoundaryCondition<dim>> &boundary_condition_registry()
   {
     static const auto registry = [] {
       base::PluginRegistry<BoundaryCondition<dim>> conditions("boundary condition type");
@@ -23,6 +22,8 @@ namespace mitre::fluid
     return registry;
   }
 
-  template const base::PluginRegistry<BoundaryCondition<2>> &boundary_condition_registry();
-  template const base::PluginRegistry<BoundaryCondition<3>> &boundary_condition_registry();
+  template const base::PluginRegistry<BoundaryCondition<2>> &
+  boundary_condition_registry();
+  template const base::PluginRegistry<BoundaryCondition<3>> &
+  boundary_condition_registry();
 } // namespace mitre::fluid

@@ -1,16 +1,15 @@
-#include <mitre/base/exceptions.h>
-#include <mitre/fluid/navier_stokes.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <mitre/base/exceptions.h>
+#include <mitre/fluid/navier_stokes.h>
 
 namespace mitre::fluid
 {
   using namespace dealii;
   using grid::VectorType;
 
-  void
-  FluidParameters::declare_parameters(ParameterHandler &prm)
+  void FluidParameters::declare_parameters(ParameterHandler &prm)
   {
     prm.declare_entry("Density", "1", Patterns::Double(1e-12), "Mass density [g/cm^3].");
     prm.declare_entry("Viscosity",
@@ -28,9 +27,7 @@ namespace mitre::fluid
   }
 
 
-
-  void
-  FluidParameters::parse_parameters(ParameterHandler &prm)
+  void FluidParameters::parse_parameters(ParameterHandler &prm)
   {
     density   = prm.get_double("Density");
     viscosity = prm.get_double("Viscosity");
@@ -41,11 +38,10 @@ namespace mitre::fluid
   }
 
 
-
   template <int dim>
-  NavierStokes<dim>::NavierStokes(grid::PatchGrid<dim>          &patch_grid,
+  NavierStokes<dim>::NavierStokes(grid::PatchGrid<dim> &patch_grid,
                                   const BoundaryConditions<dim> &boundary_conditions,
-                                  const FluidParameters         &parameters)
+                                  const FluidParameters &parameters)
     : patch_grid(patch_grid)
     , boundary_conditions(boundary_conditions)
     , parameters(parameters)
@@ -55,18 +51,14 @@ namespace mitre::fluid
   }
 
 
-
   template <int dim>
-  void
-  NavierStokes<dim>::setup()
+  void NavierStokes<dim>::setup()
   {
-    velocity_space = std::make_unique<grid::StaggeredSpace<dim>>(patch_grid,
-                                                                 boundary_conditions.kinds());
+    velocity_space = std::make_unique<grid::StaggeredSpace<dim>>(
+      patch_grid, boundary_conditions.kinds());
     stokes_operators = std::make_unique<StokesOperators<dim>>(*velocity_space);
-    stokes_solver    = std::make_unique<StokesSolver<dim>>(*stokes_operators,
-                                                        parameters.solver,
-                                                        parameters.density,
-                                                        parameters.viscosity);
+    stokes_solver    = std::make_unique<StokesSolver<dim>>(
+      *stokes_operators, parameters.solver, parameters.density, parameters.viscosity);
     advection = std::make_unique<Advection<dim>>(*velocity_space, parameters.advection);
     for (VectorType *v :
          {&u, &u_old, &u_new, &advection_old, &advection_new, &provisional, &rhs, &work})
@@ -78,10 +70,8 @@ namespace mitre::fluid
   }
 
 
-
   template <int dim>
-  void
-  NavierStokes<dim>::set_time_step(const double dt)
+  void NavierStokes<dim>::set_time_step(const double dt)
   {
     if (dt != last_dt)
       stokes_solver->set_time_step(dt);
@@ -89,21 +79,18 @@ namespace mitre::fluid
   }
 
 
-
   template <int dim>
-  void
-  NavierStokes<dim>::set_fixed_faces(VectorType &velocity, const double time) const
+  void NavierStokes<dim>::set_fixed_faces(VectorType &velocity, const double time) const
   {
     for (const auto &face : velocity_space->fixed_faces())
       {
         const auto &condition = boundary_conditions.condition(face.condition);
         velocity.local_element(face.dof) =
-          condition.kind() == grid::BoundaryKind::slip ?
-            0. :
-            condition.velocity(face.x, face.side / 2, time);
+          condition.kind() == grid::BoundaryKind::slip
+            ? 0.
+            : condition.velocity(face.x, face.side / 2, time);
       }
   }
-
 
 
   template <int dim>
@@ -119,10 +106,9 @@ namespace mitre::fluid
   }
 
 
-
   template <int dim>
-  void
-  NavierStokes<dim>::set_velocity(const VelocityFunction &function, const double time)
+  void NavierStokes<dim>::set_velocity(const VelocityFunction &function,
+                                       const double time)
   {
     typename grid::StaggeredSpace<dim>::Index index;
     for (unsigned int q = 0; q < patch_grid.n_owned_patches(); ++q)
@@ -150,26 +136,22 @@ namespace mitre::fluid
   }
 
 
-
   template <int dim>
-  void
-  NavierStokes<dim>::compute_advection(VectorType       &dst,
-                                       const VectorType &velocity,
-                                       const double      time)
+  void NavierStokes<dim>::compute_advection(VectorType &dst,
+                                            const VectorType &velocity,
+                                            const double time)
   {
     advection->apply(dst, velocity, prescribed(time));
   }
 
 
-
   template <int dim>
-  unsigned int
-  NavierStokes<dim>::solve(VectorType       &velocity,
-                           VectorType       &pressure,
-                           const VectorType &advection_term,
-                           const VectorType &force,
-                           const double      time,
-                           const double      dt)
+  unsigned int NavierStokes<dim>::solve(VectorType &velocity,
+                                        VectorType &pressure,
+                                        const VectorType &advection_term,
+                                        const VectorType &force,
+                                        const double time,
+                                        const double dt)
   {
     set_time_step(dt);
     set_fixed_faces(velocity, time + dt);
@@ -194,14 +176,16 @@ namespace mitre::fluid
 
     if (values_new)
       stokes_operators->set_boundary_values(values_new);
-    stokes_operators->apply_helmholtz(
-      work, velocity, parameters.density / dt, -0.5 * parameters.viscosity, !velocities_zero);
+    stokes_operators->apply_helmholtz(work,
+                                      velocity,
+                                      parameters.density / dt,
+                                      -0.5 * parameters.viscosity,
+                                      !velocities_zero);
     stokes_operators->apply_gradient(work, pressure, true);
     rhs.add(-1., work);
     const double start = rhs.l2_norm();
     return stokes_solver->solve(velocity, pressure, rhs, std::max(size, start));
   }
-
 
 
   template <int dim>
@@ -214,7 +198,6 @@ namespace mitre::fluid
     solve(provisional, p_new, advection_new, force, time, dt);
     has_predicted = true;
   }
-
 
 
   template <int dim>
@@ -259,15 +242,13 @@ namespace mitre::fluid
   }
 
 
-
   template <int dim>
-  bool
-  NavierStokes<dim>::regrid(
+  bool NavierStokes<dim>::regrid(
     const std::function<int(const BoundingBox<dim> &)> &wanted_level,
-    const double                                        time)
+    const double time)
   {
     std::unique_ptr<grid::SolutionTransfer<dim>> transfer;
-    const auto                                   before = [&]() {
+    const auto before = [&]() {
       transfer = std::make_unique<grid::SolutionTransfer<dim>>(
         patch_grid,
         *velocity_space,
@@ -288,14 +269,12 @@ namespace mitre::fluid
     if (!patch_grid.adapt(wanted_level, before, after))
       return false;
     set_fixed_faces(u, time);
-    const double speed = u.linfty_norm();
-    projection_iterations =
-      speed > 0. ? stokes_solver->project(u, tolerance * speed) : 0;
-    u_old = u;
-    p_old = p;
+    const double speed    = u.linfty_norm();
+    projection_iterations = speed > 0. ? stokes_solver->project(u, tolerance * speed) : 0;
+    u_old                 = u;
+    p_old                 = p;
     return true;
   }
-
 
 
   template class NavierStokes<2>;

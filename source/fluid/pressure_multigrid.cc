@@ -1,11 +1,10 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
-
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 
-#include <mitre/fluid/pressure_multigrid.h>
-
 #include <cmath>
+
+#include <mitre/fluid/pressure_multigrid.h>
 
 namespace mitre::fluid
 {
@@ -16,23 +15,21 @@ namespace mitre::fluid
   {
     /// Flux across a side relative to that between cells of equal size.
     template <typename Number>
-    constexpr Number
-    flux_factor(const Neighbor kind)
+    constexpr Number flux_factor(const Neighbor kind)
     {
-      return kind == Neighbor::coarser ? Number(2. / 3.) :
-             kind == Neighbor::finer   ? Number(4. / 3.) :
-                                         Number(1.);
+      return kind == Neighbor::coarser ? Number(2. / 3.)
+             : kind == Neighbor::finer ? Number(4. / 3.)
+                                       : Number(1.);
     }
 
     /// An entry of the coarsest level's matrix, as ranks send it to each other.
     struct Entry
     {
       types::global_dof_index row, column;
-      double                  value;
+      double value;
 
       template <class Archive>
-      void
-      serialize(Archive &archive, const unsigned int)
+      void serialize(Archive &archive, const unsigned int)
       {
         archive &row &column &value;
       }
@@ -45,8 +42,7 @@ namespace mitre::fluid
     };
 
     template <int dim>
-    Strides
-    padded_strides(const unsigned int m)
+    Strides padded_strides(const unsigned int m)
     {
       const unsigned int w = m + 2;
       return {w, w * w, 1 + w + (dim == 3 ? w * w : 0)};
@@ -74,12 +70,10 @@ namespace mitre::fluid
   }
 
 
-
   template <int dim>
-  void
-  PressureMultigrid<dim>::build_level(Level             &level,
-                                      const unsigned int m,
-                                      const Level       *finer)
+  void PressureMultigrid<dim>::build_level(Level &level,
+                                           const unsigned int m,
+                                           const Level *finer)
   {
     level.m    = m;
     level.halo = std::make_unique<grid::CellHalo<dim, Number>>(patch_grid, m);
@@ -121,8 +115,9 @@ namespace mitre::fluid
                 }
               rest /= m;
             }
-          level.open_fraction[level.open_start[face.patch * 2 * dim + face.side] +
-                              in_side] = Number(1);
+          level
+            .open_fraction[level.open_start[face.patch * 2 * dim + face.side] + in_side] =
+            Number(1);
         }
     else
       for (std::size_t s = 0; s < level.open_start.size(); ++s)
@@ -130,7 +125,7 @@ namespace mitre::fluid
           for (unsigned int i = 0; i < plane; ++i)
             {
               const unsigned int a = i % m, b = i / m;
-              Number             sum = 0;
+              Number sum = 0;
               for (unsigned int k = 0; k < (1u << (dim - 1)); ++k)
                 sum += finer->open_fraction[finer->open_start[s] + 2 * a + (k & 1) +
                                             (2 * b + (k >> 1)) * 2 * m];
@@ -146,11 +141,11 @@ namespace mitre::fluid
           for (unsigned int i = 0; i < m; ++i)
             {
               const std::array<unsigned int, 3> cell = {{i, j, k}};
-              Number                            sum  = 0;
+              Number sum                             = 0;
               for (unsigned int side = 0; side < 2 * dim; ++side)
                 {
-                  const unsigned int d      = side / 2;
-                  Number             factor = 1;
+                  const unsigned int d = side / 2;
+                  Number factor        = 1;
                   if (cell[d] == (side % 2 == 0 ? 0 : m - 1))
                     {
                       const Neighbor kind = patch_grid.neighbor(p, side);
@@ -178,22 +173,20 @@ namespace mitre::fluid
   }
 
 
-
   template <int dim>
-  void
-  PressureMultigrid<dim>::build_coarse_solver()
+  void PressureMultigrid<dim>::build_coarse_solver()
   {
-    const Level       &level = *levels.back();
+    const Level &level = *levels.back();
     std::vector<Entry> own;
     for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
       {
         const auto &patch = patch_grid.patch(p);
-        double      diagonal = 0.;
+        double diagonal   = 0.;
         for (unsigned int side = 0; side < 2 * dim; ++side)
           {
-            const unsigned int d    = side / 2;
-            const Neighbor     kind = patch_grid.neighbor(p, side);
-            double entry = flux_factor<double>(kind) * level.inverse_h2[p][d];
+            const unsigned int d = side / 2;
+            const Neighbor kind  = patch_grid.neighbor(p, side);
+            double entry         = flux_factor<double>(kind) * level.inverse_h2[p][d];
             if (kind == Neighbor::boundary)
               {
                 diagonal += 2 * level.inverse_h2[p][d] *
@@ -206,11 +199,12 @@ namespace mitre::fluid
             if (kind == Neighbor::finer)
               for (unsigned int k = 0; k < (1u << (dim - 1)); ++k)
                 {
-                  auto         child = beyond;
-                  unsigned int bit   = 0;
+                  auto child       = beyond;
+                  unsigned int bit = 0;
                   for (unsigned int e = 0; e < dim; ++e)
-                    child[e] = 2 * beyond[e] + (e == d ? (side % 2 == 1 ? 0 : 1) :
-                                                         static_cast<int>((k >> bit++) & 1));
+                    child[e] =
+                      2 * beyond[e] + (e == d ? (side % 2 == 1 ? 0 : 1)
+                                              : static_cast<int>((k >> bit++) & 1));
                   const unsigned int q = patch_grid.find(patch.level + 1, child);
                   own.push_back({patch.global_id,
                                  patch_grid.patch(q).global_id,
@@ -235,7 +229,7 @@ namespace mitre::fluid
         own.push_back({patch.global_id, patch.global_id, diagonal});
       }
 
-    const types::global_dof_index  size = patch_grid.n_global_patches();
+    const types::global_dof_index size = patch_grid.n_global_patches();
     const std::vector<std::vector<Entry>> all =
       Utilities::MPI::all_gather(patch_grid.communicator(), own);
     DynamicSparsityPattern dynamic(size);
@@ -274,12 +268,10 @@ namespace mitre::fluid
   }
 
 
-
   template <int dim>
-  void
-  PressureMultigrid<dim>::solve_coarsest()
+  void PressureMultigrid<dim>::solve_coarsest()
   {
-    Level                    &level = *levels.back();
+    Level &level = *levels.back();
     const std::vector<double> own(level.rhs.begin(),
                                   level.rhs.begin() + level.rhs.locally_owned_size());
     MPI_Allgatherv(own.data(),
@@ -301,71 +293,67 @@ namespace mitre::fluid
   }
 
 
-
   template <int dim>
-  void
-  PressureMultigrid<dim>::gather(const Level       &level,
-                                 const LevelVector &v,
-                                 const unsigned int p,
-                                 Number            *padded) const
+  void PressureMultigrid<dim>::gather(const Level &level,
+                                      const LevelVector &v,
+                                      const unsigned int p,
+                                      Number *padded) const
   {
     level.halo->gather(v, p, padded);
 
     // where the distance to the neighbour's cell is not one cell width, replace its
     // value by the one that gives the same flux at that distance
     const unsigned int m = level.m;
-    const Strides      s = padded_strides<dim>(m);
+    const Strides s      = padded_strides<dim>(m);
     for (unsigned int side = 0; side < 2 * dim; ++side)
       {
         const Neighbor kind = patch_grid.neighbor(p, side);
         if (kind == Neighbor::same)
           continue;
         const unsigned int d      = side / 2;
-        const bool         upper  = (side % 2 == 1);
+        const bool upper          = (side % 2 == 1);
         const unsigned int normal = (d == 0 ? 1 : (d == 1 ? s.y : s.z));
         const unsigned int a_step = (d == 0 ? s.y : 1), b_step = (d == 2 ? s.y : s.z);
-        Number            *inside = padded + s.first + (upper ? (m - 1) * normal : 0);
-        Number            *ghost  = upper ? inside + normal : inside - normal;
-        const Number      *fraction =
-          kind == Neighbor::boundary ?
-                 level.open_fraction.data() + level.open_start[p * 2 * dim + side] :
-                 nullptr;
+        Number *inside = padded + s.first + (upper ? (m - 1) * normal : 0);
+        Number *ghost  = upper ? inside + normal : inside - normal;
+        const Number *fraction =
+          kind == Neighbor::boundary
+            ? level.open_fraction.data() + level.open_start[p * 2 * dim + side]
+            : nullptr;
         const Number factor = flux_factor<Number>(kind);
         for (unsigned int b = 0; b < (dim == 3 ? m : 1); ++b)
           for (unsigned int a = 0; a < m; ++a)
             {
               const unsigned int at = a * a_step + b * b_step;
-              const Number       f  = fraction ? 2 * fraction[a + b * m] : factor;
+              const Number f        = fraction ? 2 * fraction[a + b * m] : factor;
               ghost[at]             = inside[at] + f * (ghost[at] - inside[at]);
             }
       }
   }
 
 
-
   template <int dim>
   template <typename Operation>
-  void
-  PressureMultigrid<dim>::for_each_row(Level           &level,
-                                       LevelVector     &x,
-                                       const Operation &operation)
+  void PressureMultigrid<dim>::for_each_row(Level &level,
+                                            LevelVector &x,
+                                            const Operation &operation)
   {
     x.update_ghost_values();
-    const unsigned int  m = level.m, mz = (dim == 3 ? m : 1);
-    const Strides       s = padded_strides<dim>(m);
+    const unsigned int m = level.m, mz = (dim == 3 ? m : 1);
+    const Strides s = padded_strides<dim>(m);
     std::vector<Number> padded(level.halo->padded_size());
     std::vector<Number> product(m);
     for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
       {
         gather(level, x, p, padded.data());
-        const auto  &c        = level.inverse_h2[p];
+        const auto &c         = level.inverse_h2[p];
         const Number diagonal = 2 * (c[0] + c[1] + (dim == 3 ? c[dim - 1] : 0));
-        std::size_t  row = static_cast<std::size_t>(p) * level.halo->n_cells_per_patch();
+        std::size_t row = static_cast<std::size_t>(p) * level.halo->n_cells_per_patch();
         for (unsigned int k = 0; k < mz; ++k)
           for (unsigned int j = 0; j < m; ++j, row += m)
             {
               const Number *center = padded.data() + s.first + j * s.y + k * s.z;
-              Number       *Ax     = product.data();
+              Number *Ax           = product.data();
               for (unsigned int i = 0; i < m; ++i)
                 {
                   Number sum = diagonal * center[i] -
@@ -382,20 +370,18 @@ namespace mitre::fluid
   }
 
 
-
   template <int dim>
-  void
-  PressureMultigrid<dim>::smooth(Level &level, const bool zero_start)
+  void PressureMultigrid<dim>::smooth(Level &level, const bool zero_start)
   {
     // eigenvalues of D^-1 A lie in (0, 2]; the upper part is smoothed
     constexpr Number upper = 2.0, lower = 0.3;
     constexpr Number theta = 0.5f * (upper + lower), delta = 0.5f * (upper - lower);
-    const Number     sigma = theta / delta;
-    Number           rho   = 1 / sigma;
+    const Number sigma = theta / delta;
+    Number rho         = 1 / sigma;
 
     const std::size_t size = level.solution.locally_owned_size();
-    Number           *x = level.solution.begin(), *update = level.update.begin();
-    const Number     *b = level.rhs.begin(), *inverse = level.inverse_diagonal.begin();
+    Number *x = level.solution.begin(), *update = level.update.begin();
+    const Number *b = level.rhs.begin(), *inverse = level.inverse_diagonal.begin();
 
     unsigned int step = 0;
     if (zero_start)
@@ -410,17 +396,16 @@ namespace mitre::fluid
     for (; step < n_smoothing_steps; ++step)
       {
         const Number rho_new = 1 / (2 * sigma - rho);
-        const Number keep = step == 0 ? 0 : rho_new * rho;
-        const Number gain = step == 0 ? 1 / theta : 2 * rho_new / delta;
+        const Number keep    = step == 0 ? 0 : rho_new * rho;
+        const Number gain    = step == 0 ? 1 / theta : 2 * rho_new / delta;
         if (step > 0)
           rho = rho_new;
         for_each_row(level,
                      level.solution,
                      [&](const std::size_t row, const unsigned int m, const Number *Ax) {
                        for (unsigned int i = 0; i < m; ++i)
-                         update[row + i] =
-                           keep * update[row + i] +
-                           gain * inverse[row + i] * (b[row + i] - Ax[i]);
+                         update[row + i] = keep * update[row + i] +
+                                           gain * inverse[row + i] * (b[row + i] - Ax[i]);
                      });
         for (std::size_t i = 0; i < size; ++i)
           x[i] += update[i];
@@ -428,10 +413,8 @@ namespace mitre::fluid
   }
 
 
-
   template <int dim>
-  void
-  PressureMultigrid<dim>::cycle(const unsigned int l)
+  void PressureMultigrid<dim>::cycle(const unsigned int l)
   {
     if (l + 1 == levels.size())
       {
@@ -443,14 +426,14 @@ namespace mitre::fluid
 
     // the mean of the residual over the cells that make up a coarse one
     const unsigned int m = fine.m, mc = coarse.m;
-    coarse.rhs          = 0;
-    Number       *r     = coarse.rhs.begin();
-    const Number *b     = fine.rhs.begin();
-    const Number  share = Number(1) / Number(1u << dim);
+    coarse.rhs         = 0;
+    Number *r          = coarse.rhs.begin();
+    const Number *b    = fine.rhs.begin();
+    const Number share = Number(1) / Number(1u << dim);
     for_each_row(fine,
                  fine.solution,
                  [&](const std::size_t row, const unsigned int, const Number *Ax) {
-                   const std::size_t  p    = row / fine.halo->n_cells_per_patch();
+                   const std::size_t p     = row / fine.halo->n_cells_per_patch();
                    const unsigned int line = (row % fine.halo->n_cells_per_patch()) / m;
                    const unsigned int j = line % m, k = line / m;
                    Number *to = r + p * coarse.halo->n_cells_per_patch() +
@@ -464,10 +447,10 @@ namespace mitre::fluid
 
     // linear interpolation within the coarse cells
     coarse.solution.update_ghost_values();
-    const Strides       s = padded_strides<dim>(mc);
+    const Strides s = padded_strides<dim>(mc);
     std::vector<Number> padded(coarse.halo->padded_size());
-    Number             *x  = fine.solution.begin();
-    const unsigned int  mz = (dim == 3 ? m : 1);
+    Number *x             = fine.solution.begin();
+    const unsigned int mz = (dim == 3 ? m : 1);
     for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
       {
         gather(coarse, coarse.solution, p, padded.data());
@@ -475,17 +458,18 @@ namespace mitre::fluid
         for (unsigned int k = 0; k < mz; ++k)
           for (unsigned int j = 0; j < m; ++j, to += m)
             {
-              const Number *center = padded.data() + s.first + (j / 2) * s.y +
-                                     (dim == 3 ? (k / 2) * s.z : 0);
+              const Number *center =
+                padded.data() + s.first + (j / 2) * s.y + (dim == 3 ? (k / 2) * s.z : 0);
               const std::ptrdiff_t y =
                 (j % 2 == 0 ? -static_cast<std::ptrdiff_t>(s.y) : s.y);
               const std::ptrdiff_t z =
                 (k % 2 == 0 ? -static_cast<std::ptrdiff_t>(s.z) : s.z);
               for (unsigned int i = 0; i < mc; ++i)
                 {
-                  const Number e     = center[i];
-                  const Number cross = e + Number(0.25) * (center[i + y] - e) +
-                                       (dim == 3 ? Number(0.25) * (center[i + z] - e) : 0);
+                  const Number e = center[i];
+                  const Number cross =
+                    e + Number(0.25) * (center[i + y] - e) +
+                    (dim == 3 ? Number(0.25) * (center[i + z] - e) : 0);
                   to[2 * i] += cross + Number(0.25) * (*(center + i - 1) - e);
                   to[2 * i + 1] += cross + Number(0.25) * (center[i + 1] - e);
                 }
@@ -496,15 +480,13 @@ namespace mitre::fluid
   }
 
 
-
   template <int dim>
-  void
-  PressureMultigrid<dim>::vmult(grid::VectorType &dst, const grid::VectorType &src)
+  void PressureMultigrid<dim>::vmult(grid::VectorType &dst, const grid::VectorType &src)
   {
-    Level            &finest = *levels.front();
-    const std::size_t size   = finest.rhs.locally_owned_size();
-    const double     *from   = src.begin();
-    Number           *rhs    = finest.rhs.begin();
+    Level &finest          = *levels.front();
+    const std::size_t size = finest.rhs.locally_owned_size();
+    const double *from     = src.begin();
+    Number *rhs            = finest.rhs.begin();
 
     // single precision covers far fewer decades than right-hand sides span
     const double scale = src.linfty_norm();
@@ -516,17 +498,15 @@ namespace mitre::fluid
     for (std::size_t i = 0; i < size; ++i)
       rhs[i] = static_cast<Number>(from[i] / scale);
     cycle(0);
-    double       *to = dst.begin();
-    const Number *x  = finest.solution.begin();
+    double *to      = dst.begin();
+    const Number *x = finest.solution.begin();
     for (std::size_t i = 0; i < size; ++i)
       to[i] = scale * static_cast<double>(x[i]);
   }
 
 
-
   template <int dim>
-  void
-  PressureMultigrid<dim>::apply(grid::VectorType &dst, const grid::VectorType &src)
+  void PressureMultigrid<dim>::apply(grid::VectorType &dst, const grid::VectorType &src)
   {
     Level &finest = *levels.front();
     for (std::size_t i = 0; i < finest.solution.locally_owned_size(); ++i)
@@ -540,17 +520,14 @@ namespace mitre::fluid
   }
 
 
-
   template <int dim>
-  std::size_t
-  PressureMultigrid<dim>::memory_consumption() const
+  std::size_t PressureMultigrid<dim>::memory_consumption() const
   {
     std::size_t sum = 0;
     for (const auto &level : levels)
       sum += 5 * level->solution.memory_consumption() + level->halo->memory_consumption();
     return sum;
   }
-
 
 
   template class PressureMultigrid<2>;

@@ -1,10 +1,10 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
-#include <mitre/fluid/stokes_operators.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <mitre/fluid/stokes_operators.h>
 
 namespace mitre::fluid
 {
@@ -17,10 +17,7 @@ namespace mitre::fluid
     : space(space)
     , patch_grid(space.grid())
     , n(patch_grid.n_cells_per_side())
-    , velocity_halo(space,
-                    1,
-                    grid::HaloShape::star,
-                    grid::BoundaryExtension::quadratic)
+    , velocity_halo(space, 1, grid::HaloShape::star, grid::BoundaryExtension::quadratic)
     , cell_halo(patch_grid, n)
   {
     std::vector<types::global_dof_index> ghosts;
@@ -36,8 +33,8 @@ namespace mitre::fluid
     const auto cell_at = [&](const std::size_t dof, const unsigned int side) {
       const unsigned int p = dof / space.n_dofs_per_patch();
       const unsigned int c = side / 2;
-      unsigned int       rest = dof - space.first_dof(p, c), cell = 0, stride = 1;
-      double             area = (side % 2 == 0 ? 1. : -1.);
+      unsigned int rest = dof - space.first_dof(p, c), cell = 0, stride = 1;
+      double area = (side % 2 == 0 ? 1. : -1.);
       for (unsigned int d = 0; d < dim; ++d)
         {
           const unsigned int i = rest % space.extent(c, d);
@@ -52,10 +49,12 @@ namespace mitre::fluid
     const auto &table = space.coarse_fine_faces();
     for (unsigned int row = 0; row < table.n_rows(); ++row)
       {
-        const std::size_t  dof   = table.destination(row);
-        const unsigned int c     = (dof % space.n_dofs_per_patch()) / space.n_dofs_per_component();
-        const unsigned int p     = dof / space.n_dofs_per_patch();
-        const unsigned int plane = ((dof - space.first_dof(p, c)) / space.stride(c, c)) % (n + 1);
+        const std::size_t dof = table.destination(row);
+        const unsigned int c =
+          (dof % space.n_dofs_per_patch()) / space.n_dofs_per_component();
+        const unsigned int p = dof / space.n_dofs_per_patch();
+        const unsigned int plane =
+          ((dof - space.first_dof(p, c)) / space.stride(c, c)) % (n + 1);
         interface_cells.push_back(cell_at(dof, 2 * c + (plane == 0 ? 0 : 1)));
       }
     for (const auto &[p, side] : space.coarse_sides())
@@ -63,8 +62,8 @@ namespace mitre::fluid
         const unsigned int c = side / 2, s = space.stride(c, c);
         for (unsigned int i = 0; i < Utilities::fixed_power<dim - 1>(n); ++i)
           {
-            const std::size_t dof = space.first_dof(p, c) + (side % 2) * n * s +
-                                    (i / s) * s * (n + 1) + i % s;
+            const std::size_t dof =
+              space.first_dof(p, c) + (side % 2) * n * s + (i / s) * s * (n + 1) + i % s;
             const auto [cell, area] = cell_at(dof, side);
             coarse_faces.push_back({dof, cell, area});
           }
@@ -72,10 +71,8 @@ namespace mitre::fluid
   }
 
 
-
   template <int dim>
-  void
-  StokesOperators<dim>::finish(VectorType &dst) const
+  void StokesOperators<dim>::finish(VectorType &dst) const
   {
     space.zero_fixed_faces(dst);
     if (patch_grid.has_coarse_fine_interfaces())
@@ -83,22 +80,20 @@ namespace mitre::fluid
   }
 
 
-
   template <int dim>
-  void
-  StokesOperators<dim>::apply_helmholtz(VectorType  &dst,
-                                        VectorType  &u,
-                                        const double a,
-                                        const double b,
-                                        const bool   inhomogeneous) const
+  void StokesOperators<dim>::apply_helmholtz(VectorType &dst,
+                                             VectorType &u,
+                                             const double a,
+                                             const double b,
+                                             const bool inhomogeneous) const
   {
     u.update_ghost_values();
     std::vector<double> padded(velocity_halo.size(0));
     for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
       {
-        const auto            &patch = patch_grid.patch(p);
+        const auto &patch = patch_grid.patch(p);
         std::array<double, dim> w;
-        double                  center_weight = a;
+        double center_weight = a;
         for (unsigned int d = 0; d < dim; ++d)
           {
             w[d] = b / (patch.h[d] * patch.h[d]);
@@ -107,11 +102,11 @@ namespace mitre::fluid
         for (unsigned int c = 0; c < dim; ++c)
           {
             velocity_halo.gather(u, p, c, padded.data(), inhomogeneous);
-            const auto         e  = velocity_halo.extents(c);
+            const auto e          = velocity_halo.extents(c);
             const unsigned int nx = space.extent(c, 0), ny = space.extent(c, 1),
-                               nz = (dim == 3 ? space.extent(c, dim - 1) : 1);
+                               nz   = (dim == 3 ? space.extent(c, dim - 1) : 1);
             const std::ptrdiff_t sy = e[0], sz = e[0] * e[1];
-            double              *out = dst.begin() + space.first_dof(p, c);
+            double *out = dst.begin() + space.first_dof(p, c);
             for (unsigned int k = 0; k < nz; ++k)
               for (unsigned int j = 0; j < ny; ++j, out += nx)
                 {
@@ -134,22 +129,22 @@ namespace mitre::fluid
   }
 
 
-
   template <int dim>
-  void
-  StokesOperators<dim>::apply_gradient(VectorType &dst, VectorType &pressure, const bool add) const
+  void StokesOperators<dim>::apply_gradient(VectorType &dst,
+                                            VectorType &pressure,
+                                            const bool add) const
   {
     pressure.update_ghost_values();
-    std::vector<double>  padded(cell_halo.padded_size());
+    std::vector<double> padded(cell_halo.padded_size());
     const std::ptrdiff_t sy = n + 2, sz = sy * sy;
     for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
       {
         cell_halo.gather(pressure, p, padded.data());
         for (unsigned int c = 0; c < dim; ++c)
           {
-            const double         factor = 1. / patch_grid.patch(p).h[c];
-            const std::ptrdiff_t back   = (c == 0 ? 1 : (c == 1 ? sy : sz));
-            const unsigned int   nx = space.extent(c, 0), ny = space.extent(c, 1),
+            const double factor       = 1. / patch_grid.patch(p).h[c];
+            const std::ptrdiff_t back = (c == 0 ? 1 : (c == 1 ? sy : sz));
+            const unsigned int nx = space.extent(c, 0), ny = space.extent(c, 1),
                                nz = (dim == 3 ? space.extent(c, dim - 1) : 1);
 
             // planes of faces on the boundary are half a cell away from the pressure,
@@ -158,9 +153,9 @@ namespace mitre::fluid
             for (unsigned int upper = 0; upper < 2; ++upper)
               {
                 const Neighbor kind = patch_grid.neighbor(p, 2 * c + upper);
-                end_factor[upper]   = (kind == Neighbor::same     ? 1. :
-                                       kind == Neighbor::boundary ? 2. :
-                                                                    0.) *
+                end_factor[upper]   = (kind == Neighbor::same       ? 1.
+                                       : kind == Neighbor::boundary ? 2.
+                                                                    : 0.) *
                                     factor;
               }
             double *out = dst.begin() + space.first_dof(p, c);
@@ -198,7 +193,7 @@ namespace mitre::fluid
       {
         interface_forces      = 0.;
         const double *p_value = pressure.begin();
-        const auto   &table   = space.coarse_fine_faces();
+        const auto &table     = space.coarse_fine_faces();
         for (unsigned int row = 0; row < table.n_rows(); ++row)
           interface_forces.local_element(table.destination(row)) =
             interface_cells[row].second * p_value[interface_cells[row].first];
@@ -212,18 +207,16 @@ namespace mitre::fluid
   }
 
 
-
   template <int dim>
-  void
-  StokesOperators<dim>::apply_divergence(VectorType &dst, const VectorType &u) const
+  void StokesOperators<dim>::apply_divergence(VectorType &dst, const VectorType &u) const
   {
     const unsigned int nz = (dim == 3 ? n : 1);
-    double            *out = dst.begin();
+    double *out           = dst.begin();
     for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
       {
-        const auto                   &patch = patch_grid.patch(p);
+        const auto &patch = patch_grid.patch(p);
         std::array<const double *, 3> in{};
-        std::array<double, 3>         w{};
+        std::array<double, 3> w{};
         for (unsigned int c = 0; c < dim; ++c)
           {
             in[c] = u.begin() + space.first_dof(p, c);
@@ -247,10 +240,8 @@ namespace mitre::fluid
   }
 
 
-
   template <int dim>
-  double
-  StokesOperators<dim>::max_divergence(const VectorType &u) const
+  double StokesOperators<dim>::max_divergence(const VectorType &u) const
   {
     VectorType divergence;
     initialize_pressure(divergence);
@@ -259,18 +250,17 @@ namespace mitre::fluid
   }
 
 
-
   template <int dim>
-  double
-  StokesOperators<dim>::max_courant_number(const VectorType &u, const double dt) const
+  double StokesOperators<dim>::max_courant_number(const VectorType &u,
+                                                  const double dt) const
   {
     double largest = 0.;
     for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
       for (unsigned int c = 0; c < dim; ++c)
         {
           const double *values = u.begin() + space.first_dof(p, c);
-          double        speed  = 0.;
-          bool          finite = true;
+          double speed         = 0.;
+          bool finite          = true;
           for (unsigned int i = 0; i < space.n_dofs_per_component(); ++i)
             {
               speed  = std::max(speed, std::abs(values[i]));
@@ -284,13 +274,11 @@ namespace mitre::fluid
   }
 
 
-
   template <int dim>
-  double
-  StokesOperators<dim>::mean_pressure(const VectorType &p) const
+  double StokesOperators<dim>::mean_pressure(const VectorType &p) const
   {
-    double                sum[2]   = {0., 0.};
-    const unsigned int    per_patch = cell_halo.n_cells_per_patch();
+    double sum[2]                = {0., 0.};
+    const unsigned int per_patch = cell_halo.n_cells_per_patch();
     for (unsigned int q = 0; q < patch_grid.n_owned_patches(); ++q)
       {
         double volume = 1.;
@@ -304,7 +292,6 @@ namespace mitre::fluid
     MPI_Allreduce(sum, total, 2, MPI_DOUBLE, MPI_SUM, patch_grid.communicator());
     return total[0] / total[1];
   }
-
 
 
   template class StokesOperators<2>;

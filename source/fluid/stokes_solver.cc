@@ -1,22 +1,20 @@
 #include <deal.II/base/mpi.h>
-
 #include <deal.II/lac/solver_control.h>
 #include <deal.II/lac/solver_gmres.h>
-
-#include <mitre/base/exceptions.h>
-#include <mitre/fluid/stokes_solver.h>
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+
+#include <mitre/base/exceptions.h>
+#include <mitre/fluid/stokes_solver.h>
 
 namespace mitre::fluid
 {
   using namespace dealii;
   using grid::VectorType;
 
-  void
-  StokesSolverParameters::declare_parameters(ParameterHandler &prm)
+  void StokesSolverParameters::declare_parameters(ParameterHandler &prm)
   {
     prm.declare_entry("Relative tolerance",
                       "1e-6",
@@ -39,9 +37,7 @@ namespace mitre::fluid
   }
 
 
-
-  void
-  StokesSolverParameters::parse_parameters(ParameterHandler &prm)
+  void StokesSolverParameters::parse_parameters(ParameterHandler &prm)
   {
     relative_tolerance = prm.get_double("Relative tolerance");
     maximum_iterations = prm.get_integer("Maximum iterations");
@@ -50,14 +46,12 @@ namespace mitre::fluid
   }
 
 
-
   template <int dim>
   struct StokesSolver<dim>::SystemMatrix
   {
     StokesSolver &solver;
 
-    void
-    vmult(BlockVector &dst, const BlockVector &src) const
+    void vmult(BlockVector &dst, const BlockVector &src) const
     {
       // the operators only update the ghost entries of their argument
       BlockVector &x = const_cast<BlockVector &>(src);
@@ -73,14 +67,12 @@ namespace mitre::fluid
   };
 
 
-
   template <int dim>
   struct StokesSolver<dim>::Preconditioner
   {
     StokesSolver &solver;
 
-    void
-    vmult(BlockVector &dst, const BlockVector &src) const
+    void vmult(BlockVector &dst, const BlockVector &src) const
     {
       StokesSolver &s = solver;
       s.solve_velocity(dst.block(0), src.block(0));
@@ -98,12 +90,11 @@ namespace mitre::fluid
   };
 
 
-
   template <int dim>
-  StokesSolver<dim>::StokesSolver(const StokesOperators<dim>   &operators,
+  StokesSolver<dim>::StokesSolver(const StokesOperators<dim> &operators,
                                   const StokesSolverParameters &parameters,
-                                  const double                  density,
-                                  const double                  viscosity)
+                                  const double density,
+                                  const double viscosity)
     : operators(operators)
     , parameters(parameters)
     , density(density)
@@ -125,12 +116,10 @@ namespace mitre::fluid
   }
 
 
-
   template <int dim>
-  void
-  StokesSolver<dim>::set_time_step(const double new_dt)
+  void StokesSolver<dim>::set_time_step(const double new_dt)
   {
-    dt = new_dt;
+    dt                                     = new_dt;
     const grid::PatchGrid<dim> &patch_grid = operators.velocity_space().grid();
     velocity_diagonal.resize(patch_grid.n_owned_patches());
     double largest = 0., smallest = std::numeric_limits<double>::max();
@@ -146,8 +135,8 @@ namespace mitre::fluid
         velocity_diagonal[p] = density / dt + viscosity * sum;
         largest              = std::max(largest, 0.5 * viscosity * dt / density * sum);
       }
-    largest    = Utilities::MPI::max(largest, patch_grid.communicator());
-    smallest_h = Utilities::MPI::min(smallest, patch_grid.communicator());
+    largest          = Utilities::MPI::max(largest, patch_grid.communicator());
+    smallest_h       = Utilities::MPI::min(smallest, patch_grid.communicator());
     divergence_scale = density * smallest_h / dt;
 
     // eigenvalues of the operator over its diagonal; boundary rows reach a little beyond
@@ -158,22 +147,21 @@ namespace mitre::fluid
     const double root  = std::sqrt(upper / lower);
     const double rate  = (root - 1.) / (root + 1.);
     velocity_degree =
-      rate < 0.02 ?
-        1 :
-        std::min(200u, static_cast<unsigned int>(std::ceil(std::log(0.02) / std::log(rate))));
+      rate < 0.02
+        ? 1
+        : std::min(200u,
+                   static_cast<unsigned int>(std::ceil(std::log(0.02) / std::log(rate))));
   }
 
 
-
   template <int dim>
-  void
-  StokesSolver<dim>::solve_velocity(VectorType &u, const VectorType &r) const
+  void StokesSolver<dim>::solve_velocity(VectorType &u, const VectorType &r) const
   {
     const unsigned int per_patch = operators.velocity_space().n_dofs_per_patch();
-    const double       sigma = velocity_theta / std::max(velocity_delta, 1e-300);
-    double             rho   = 1. / sigma;
-    double            *update = velocity_update.begin(), *value = u.begin();
-    const double      *rhs = r.begin();
+    const double sigma           = velocity_theta / std::max(velocity_delta, 1e-300);
+    double rho                   = 1. / sigma;
+    double *update = velocity_update.begin(), *value = u.begin();
+    const double *rhs = r.begin();
     for (std::size_t p = 0; p < velocity_diagonal.size(); ++p)
       {
         const double gain = 1. / (velocity_theta * velocity_diagonal[p]);
@@ -187,7 +175,7 @@ namespace mitre::fluid
       {
         operators.apply_helmholtz(
           velocity_product, u, density / dt, -0.5 * viscosity, false);
-        const double  rho_new = 1. / (2. * sigma - rho);
+        const double rho_new  = 1. / (2. * sigma - rho);
         const double *product = velocity_product.begin();
         for (std::size_t p = 0; p < velocity_diagonal.size(); ++p)
           {
@@ -207,10 +195,8 @@ namespace mitre::fluid
   }
 
 
-
   template <int dim>
-  void
-  StokesSolver<dim>::solve_pressure(VectorType &phi, const VectorType &g)
+  void StokesSolver<dim>::solve_pressure(VectorType &phi, const VectorType &g)
   {
     multigrid.vmult(phi, g);
     for (unsigned int cycle = 1; cycle < parameters.pressure_cycles; ++cycle)
@@ -218,20 +204,18 @@ namespace mitre::fluid
         multigrid.apply(pressure_product, phi);
         pressure_product.sadd(-1., 1., g);
         VectorType &change = pressure_product;
-        VectorType  more(change);
+        VectorType more(change);
         multigrid.vmult(more, change);
         phi.add(1., more);
       }
   }
 
 
-
   template <int dim>
-  unsigned int
-  StokesSolver<dim>::solve(VectorType  &u,
-                           VectorType  &p,
-                           VectorType  &momentum_residual,
-                           const double reference)
+  unsigned int StokesSolver<dim>::solve(VectorType &u,
+                                        VectorType &p,
+                                        VectorType &momentum_residual,
+                                        const double reference)
   {
     const grid::StaggeredSpace<dim> &space = operators.velocity_space();
     residual.block(0)                      = momentum_residual;
@@ -242,10 +226,11 @@ namespace mitre::fluid
 
     const double tolerance = parameters.relative_tolerance * reference;
     const double start     = residual.l2_norm();
-    AssertThrow(std::isfinite(start),
-                base::UserError("The flow has become infinite or undefined. The time step "
-                                "is probably too large for the stiffness of the structure "
-                                "or the speed of the flow."));
+    AssertThrow(
+      std::isfinite(start),
+      base::UserError("The flow has become infinite or undefined. The time step "
+                      "is probably too large for the stiffness of the structure "
+                      "or the speed of the flow."));
     if (start <= tolerance)
       {
         relative_residual = reference > 0. ? start / reference : 0.;
@@ -255,8 +240,8 @@ namespace mitre::fluid
     typename SolverFGMRES<BlockVector>::AdditionalData data(
       std::min(50u, parameters.maximum_iterations));
     SolverFGMRES<BlockVector> solver(control, data);
-    const SystemMatrix        matrix{*this};
-    const Preconditioner      preconditioner{*this};
+    const SystemMatrix matrix{*this};
+    const Preconditioner preconditioner{*this};
     try
       {
         solver.solve(matrix, correction, residual, preconditioner);
@@ -281,16 +266,13 @@ namespace mitre::fluid
   }
 
 
-
   template <int dim>
-  unsigned int
-  StokesSolver<dim>::project(VectorType &u, const double tolerance)
+  unsigned int StokesSolver<dim>::project(VectorType &u, const double tolerance)
   {
     struct PoissonMatrix
     {
       StokesSolver &solver;
-      void
-      vmult(VectorType &dst, const VectorType &src) const
+      void vmult(VectorType &dst, const VectorType &src) const
       {
         solver.operators.apply_gradient(
           solver.velocity_product, const_cast<VectorType &>(src), false);
@@ -301,8 +283,7 @@ namespace mitre::fluid
     struct Cycle
     {
       StokesSolver &solver;
-      void
-      vmult(VectorType &dst, const VectorType &src) const
+      void vmult(VectorType &dst, const VectorType &src) const
       {
         solver.multigrid.vmult(dst, src);
       }
@@ -317,7 +298,7 @@ namespace mitre::fluid
     SolverFGMRES<VectorType> solver(
       control, typename SolverFGMRES<VectorType>::AdditionalData(40));
     const PoissonMatrix matrix{*this};
-    const Cycle         cycle{*this};
+    const Cycle cycle{*this};
     try
       {
         solver.solve(matrix, pressure_correction, pressure_rhs, cycle);
@@ -334,7 +315,6 @@ namespace mitre::fluid
     operators.velocity_space().synchronize(u);
     return control.last_step();
   }
-
 
 
   template class StokesSolver<2>;

@@ -2,9 +2,9 @@
 #include <deal.II/base/partitioner.h>
 #include <deal.II/base/utilities.h>
 
-#include <mitre/grid/cell_halo.h>
-
 #include <algorithm>
+
+#include <mitre/grid/cell_halo.h>
 
 namespace mitre::grid
 {
@@ -12,7 +12,7 @@ namespace mitre::grid
 
   template <int dim, typename Number>
   CellHalo<dim, Number>::CellHalo(const PatchGrid<dim> &grid,
-                                  const unsigned int    cells_per_side)
+                                  const unsigned int cells_per_side)
     : patch_grid(grid)
     , m(cells_per_side)
     , cells_per_patch(Utilities::fixed_power<dim>(m))
@@ -40,7 +40,7 @@ namespace mitre::grid
       for (unsigned int side = 0; side < 2 * dim; ++side)
         {
           const unsigned int d = side / 2;
-          Side               s;
+          Side s;
           s.kind           = grid.neighbor(p, side);
           s.whole          = false;
           s.patch_or_start = global.size();
@@ -59,8 +59,8 @@ namespace mitre::grid
             for (unsigned int i = 0; i < cells_per_plane; ++i)
               {
                 const Patch<dim> &patch = grid.patch(p);
-                Index             beyond;
-                unsigned int      rest = i;
+                Index beyond;
+                unsigned int rest = i;
                 for (unsigned int e = 0; e < dim; ++e)
                   if (e == d)
                     beyond[e] = patch.index[e] * static_cast<int>(m) +
@@ -82,14 +82,13 @@ namespace mitre::grid
                 else
                   for (unsigned int k = 0; k < (1u << (dim - 1)); ++k)
                     {
-                      Index        child;
+                      Index child;
                       unsigned int bit = 0;
                       for (unsigned int e = 0; e < dim; ++e)
                         if (e == d)
                           child[e] = 2 * beyond[e] + (side % 2 == 1 ? 0 : 1);
                         else
-                          child[e] =
-                            2 * beyond[e] + static_cast<int>((k >> bit++) & 1u);
+                          child[e] = 2 * beyond[e] + static_cast<int>((k >> bit++) & 1u);
                       global.push_back(cell_entry(patch.level + 1, child));
                     }
               }
@@ -108,28 +107,26 @@ namespace mitre::grid
     IndexSet ghost_set(owned.size());
     ghost_set.add_indices(ghosts.begin(), ghosts.end());
     ghost_set.subtract_set(owned);
-    partitioner =
-      std::make_shared<Utilities::MPI::Partitioner>(owned, ghost_set, grid.communicator());
+    partitioner = std::make_shared<Utilities::MPI::Partitioner>(
+      owned, ghost_set, grid.communicator());
     entries.resize(global.size());
     for (std::size_t i = 0; i < global.size(); ++i)
       entries[i] = partitioner->global_to_local(global[i]);
   }
 
 
-
   template <int dim, typename Number>
-  void
-  CellHalo<dim, Number>::gather(const Vector      &v,
-                                const unsigned int p,
-                                Number            *padded) const
+  void CellHalo<dim, Number>::gather(const Vector &v,
+                                     const unsigned int p,
+                                     Number *padded) const
   {
-    const Number      *values = v.begin();
-    const Number      *own    = values + static_cast<std::size_t>(p) * cells_per_patch;
-    const unsigned int w      = m + 2;
-    constexpr bool     three  = (dim == 3);
-    const unsigned int mz     = three ? m : 1;
-    const unsigned int wz     = w * w;
-    Number            *first  = padded + 1 + w + (three ? wz : 0);
+    const Number *values  = v.begin();
+    const Number *own     = values + static_cast<std::size_t>(p) * cells_per_patch;
+    const unsigned int w  = m + 2;
+    constexpr bool three  = (dim == 3);
+    const unsigned int mz = three ? m : 1;
+    const unsigned int wz = w * w;
+    Number *first         = padded + 1 + w + (three ? wz : 0);
 
     for (unsigned int k = 0; k < mz; ++k)
       for (unsigned int j = 0; j < m; ++j)
@@ -138,14 +135,14 @@ namespace mitre::grid
 
     for (unsigned int side = 0; side < 2 * dim; ++side)
       {
-        const unsigned int d     = side / 2;
-        const bool         upper = (side % 2 == 1);
-        const Side        &s     = sides[p * 2 * dim + side];
+        const unsigned int d = side / 2;
+        const bool upper     = (side % 2 == 1);
+        const Side &s        = sides[p * 2 * dim + side];
 
         // strides along the plane (a, b) and to the layer beyond the side
         const unsigned int a_to = (d == 0 ? w : 1), b_to = (d == 2 ? w : wz);
         const unsigned int normal = (d == 0 ? 1 : (d == 1 ? w : wz));
-        Number            *to     = first;
+        Number *to                = first;
         if (upper)
           to += m * normal;
         else
@@ -156,7 +153,7 @@ namespace mitre::grid
           {
             const unsigned int a_from = (d == 0 ? m : 1), b_from = (d == 2 ? m : m * m);
             const unsigned int from_normal = (d == 0 ? 1 : (d == 1 ? m : m * m));
-            const Number      *from =
+            const Number *from =
               values + static_cast<std::size_t>(s.patch_or_start) * cells_per_patch +
               (upper ? 0 : (m - 1) * from_normal);
             for (unsigned int b = 0; b < nb; ++b)
@@ -172,7 +169,7 @@ namespace mitre::grid
         else if (s.kind == Neighbor::finer)
           {
             constexpr unsigned int n_fine = 1u << (dim - 1);
-            const unsigned int    *entry  = entries.data() + s.patch_or_start;
+            const unsigned int *entry     = entries.data() + s.patch_or_start;
             for (unsigned int b = 0; b < nb; ++b)
               for (unsigned int a = 0; a < m; ++a, entry += n_fine)
                 {
@@ -193,14 +190,11 @@ namespace mitre::grid
   }
 
 
-
   template <int dim, typename Number>
-  std::size_t
-  CellHalo<dim, Number>::memory_consumption() const
+  std::size_t CellHalo<dim, Number>::memory_consumption() const
   {
     return sides.size() * sizeof(Side) + entries.size() * sizeof(unsigned int);
   }
-
 
 
   template class CellHalo<2, double>;

@@ -1,14 +1,13 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
-
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
 
-#include <mitre/base/exceptions.h>
-#include <mitre/grid/patch_grid.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <mitre/base/exceptions.h>
+#include <mitre/grid/patch_grid.h>
 
 namespace mitre::grid
 {
@@ -20,22 +19,20 @@ namespace mitre::grid
     constexpr std::uint64_t dense_limit = 1u << 22;
 
     template <int dim>
-    BoundingBox<dim>
-    make_box(const Point<dim> &a, const Point<dim> &b)
+    BoundingBox<dim> make_box(const Point<dim> &a, const Point<dim> &b)
     {
       return BoundingBox<dim>(std::make_pair(a, b));
     }
 
     template <typename T, int dim>
-    std::array<T, dim>
-    read_array(ParameterHandler &prm, const std::string &name)
+    std::array<T, dim> read_array(ParameterHandler &prm, const std::string &name)
     {
-      const std::string              text    = prm.get(name);
+      const std::string text                 = prm.get(name);
       const std::vector<std::string> entries = Utilities::split_string_list(text, ',');
       if (entries.size() != dim)
         throw base::UserError("Parameter \"Grid / " + name + "\" needs " +
-                              std::to_string(dim) + " numbers, one a direction, but is \"" +
-                              text + "\".");
+                              std::to_string(dim) +
+                              " numbers, one a direction, but is \"" + text + "\".");
       std::array<T, dim> result;
       for (unsigned int d = 0; d < dim; ++d)
         result[d] = static_cast<T>(Utilities::string_to_double(entries[d]));
@@ -45,8 +42,7 @@ namespace mitre::grid
 
 
   template <int dim>
-  void
-  PatchGridParameters<dim>::declare_parameters(ParameterHandler &prm)
+  void PatchGridParameters<dim>::declare_parameters(ParameterHandler &prm)
   {
     const auto repeat = [](const std::string &entry) {
       std::string text = entry;
@@ -88,10 +84,8 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  void
-  PatchGridParameters<dim>::parse_parameters(ParameterHandler &prm)
+  void PatchGridParameters<dim>::parse_parameters(ParameterHandler &prm)
   {
     const auto a = read_array<double, dim>(prm, "Lower corner");
     const auto b = read_array<double, dim>(prm, "Upper corner");
@@ -133,9 +127,8 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  PatchGrid<dim>::PatchGrid(MPI_Comm                        communicator,
+  PatchGrid<dim>::PatchGrid(MPI_Comm communicator,
                             const PatchGridParameters<dim> &parameters)
     : parameters(parameters)
     , n(parameters.cells_per_side)
@@ -147,8 +140,7 @@ namespace mitre::grid
     GridGenerator::subdivided_hyper_rectangle(
       tria, repetitions, parameters.lower, parameters.upper, /*colorize=*/true);
 
-    std::vector<
-      GridTools::PeriodicFacePair<typename Triangulation<dim>::cell_iterator>>
+    std::vector<GridTools::PeriodicFacePair<typename Triangulation<dim>::cell_iterator>>
       pairs;
     for (unsigned int d = 0; d < dim; ++d)
       if (parameters.periodic[d])
@@ -157,8 +149,9 @@ namespace mitre::grid
       tria.add_periodicity(pairs);
 
     tria.signals.weight.connect(
-      [this](const typename parallel::distributed::Triangulation<dim>::cell_iterator &cell,
-             const typename parallel::distributed::Triangulation<dim>::CellStatus) {
+      [this](
+        const typename parallel::distributed::Triangulation<dim>::cell_iterator &cell,
+        const typename parallel::distributed::Triangulation<dim>::CellStatus) {
         return 1000u + (extra_weight ? extra_weight(bounding_box_of(cell)) : 0u);
       });
 
@@ -168,43 +161,37 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  types::global_dof_index
-  PatchGrid<dim>::n_global_cells() const
+  types::global_dof_index PatchGrid<dim>::n_global_cells() const
   {
     return n_global_patches() * Utilities::fixed_power<dim>(n);
   }
 
 
-
   template <int dim>
-  BoundingBox<dim>
-  PatchGrid<dim>::bounding_box_of(
+  BoundingBox<dim> PatchGrid<dim>::bounding_box_of(
     const typename Triangulation<dim>::cell_iterator &cell) const
   {
-    return make_box(cell->vertex(0), cell->vertex(GeometryInfo<dim>::vertices_per_cell - 1));
+    return make_box(cell->vertex(0),
+                    cell->vertex(GeometryInfo<dim>::vertices_per_cell - 1));
   }
 
 
-
   template <int dim>
-  typename PatchGrid<dim>::Index
-  PatchGrid<dim>::index_of(const Point<dim> &x, const int level) const
+  typename PatchGrid<dim>::Index PatchGrid<dim>::index_of(const Point<dim> &x,
+                                                          const int level) const
   {
     Index index;
     for (unsigned int d = 0; d < dim; ++d)
-      index[d] = static_cast<int>(
-        std::floor((x[d] - parameters.lower[d]) /
-                   (parameters.upper[d] - parameters.lower[d]) * n_patches(level, d)));
+      index[d] = static_cast<int>(std::floor((x[d] - parameters.lower[d]) /
+                                             (parameters.upper[d] - parameters.lower[d]) *
+                                             n_patches(level, d)));
     return index;
   }
 
 
-
   template <int dim>
-  bool
-  PatchGrid<dim>::wrap(const int level, Index &index) const
+  bool PatchGrid<dim>::wrap(const int level, Index &index) const
   {
     for (unsigned int d = 0; d < dim; ++d)
       {
@@ -220,10 +207,8 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  unsigned int
-  PatchGrid<dim>::find(const int level, Index index) const
+  unsigned int PatchGrid<dim>::find(const int level, Index index) const
   {
     if (level < lowest_level || level > highest_level || !wrap(level, index))
       return numbers::invalid_unsigned_int;
@@ -236,10 +221,9 @@ namespace mitre::grid
     if (!dense.empty())
       return static_cast<unsigned int>(dense[key]);
     const auto &sparse = sparse_lookup[level - lowest_level];
-    const auto  entry  = sparse.find(key);
+    const auto entry   = sparse.find(key);
     return entry == sparse.end() ? numbers::invalid_unsigned_int : entry->second;
   }
-
 
 
   template <int dim>
@@ -250,10 +234,9 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  unsigned int
-  PatchGrid<dim>::neighbor_patch(const unsigned int p, const Index &offset) const
+  unsigned int PatchGrid<dim>::neighbor_patch(const unsigned int p,
+                                              const Index &offset) const
   {
     Index index = patches[p].index;
     for (unsigned int d = 0; d < dim; ++d)
@@ -262,10 +245,8 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  unsigned int
-  PatchGrid<dim>::locate(const Point<dim> &x) const
+  unsigned int PatchGrid<dim>::locate(const Point<dim> &x) const
   {
     Point<dim> inside = x;
     for (unsigned int d = 0; d < dim; ++d)
@@ -287,10 +268,8 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  int
-  PatchGrid<dim>::level_at(const Point<dim> &x) const
+  int PatchGrid<dim>::level_at(const Point<dim> &x) const
   {
     for (int level = highest_level; level >= lowest_level; --level)
       if (find(level, index_of(x, level)) != numbers::invalid_unsigned_int)
@@ -299,10 +278,8 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  void
-  PatchGrid<dim>::update()
+  void PatchGrid<dim>::update()
   {
     patches.clear();
     const auto add = [&](const typename Triangulation<dim>::active_cell_iterator &cell) {
@@ -354,7 +331,7 @@ namespace mitre::grid
     for (unsigned int p = 0; p < patches.size(); ++p)
       {
         const Patch<dim> &patch = patches[p];
-        std::uint64_t     key   = 0;
+        std::uint64_t key       = 0;
         for (int d = dim - 1; d >= 0; --d)
           key = key * n_patches(patch.level, d) + patch.index[d];
         auto &dense = dense_lookup[patch.level - lowest_level];
@@ -369,8 +346,8 @@ namespace mitre::grid
     for (unsigned int p = 0; p < owned_patches; ++p)
       for (unsigned int side = 0; side < 2 * dim; ++side)
         {
-          const unsigned int d     = side / 2;
-          Index              index = patches[p].index;
+          const unsigned int d = side / 2;
+          Index index          = patches[p].index;
           index[d] += (side % 2 == 1 ? 1 : -1);
           Neighbor &neighbor = neighbors[p * 2 * dim + side];
           if (!wrap(patches[p].level, index))
@@ -394,13 +371,11 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
   bool
-  PatchGrid<dim>::adapt(
-    const std::function<int(const BoundingBox<dim> &)> &wanted_level,
-    const std::function<void()>                        &before_change,
-    const std::function<void()>                        &after_change)
+  PatchGrid<dim>::adapt(const std::function<int(const BoundingBox<dim> &)> &wanted_level,
+                        const std::function<void()> &before_change,
+                        const std::function<void()> &after_change)
   {
     bool anything = false;
     // one level up or down a pass; a leaf that is coarsened may be refined again by
@@ -452,14 +427,14 @@ namespace mitre::grid
         // p4est's balance may have undone everything that was asked for
         bool same = before.size() == owned_patches;
         for (unsigned int p = 0; same && p < owned_patches; ++p)
-          same = before[p].first == patches[p].level && before[p].second == patches[p].index;
+          same =
+            before[p].first == patches[p].level && before[p].second == patches[p].index;
         if (Utilities::MPI::min(same ? 1 : 0, tria.get_communicator()) == 1)
           break;
         anything = true;
       }
     return anything;
   }
-
 
 
   template struct PatchGridParameters<2>;

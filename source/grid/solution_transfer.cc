@@ -1,8 +1,8 @@
 #include <deal.II/base/utilities.h>
 
-#include <mitre/grid/solution_transfer.h>
-
 #include <cstring>
+
+#include <mitre/grid/solution_transfer.h>
 
 namespace mitre::grid
 {
@@ -13,8 +13,7 @@ namespace mitre::grid
     using Sizes = std::array<unsigned int, 3>;
 
     template <int dim>
-    Sizes
-    component_sizes(const unsigned int n, const unsigned int c)
+    Sizes component_sizes(const unsigned int n, const unsigned int c)
     {
       Sizes size{{1, 1, 1}};
       for (unsigned int d = 0; d < dim; ++d)
@@ -22,32 +21,30 @@ namespace mitre::grid
       return size;
     }
 
-    std::size_t
-    product(const Sizes &size)
+    std::size_t product(const Sizes &size)
     {
       return static_cast<std::size_t>(size[0]) * size[1] * size[2];
     }
 
     /**
-     * Value of fine entry @p i of child @p child from the parent's array @p padded with one
-     * layer around: linear in all directions; @p c is the direction of the faces' normal,
-     * or dim for cell values.
+     * Value of fine entry @p i of child @p child from the parent's array @p padded with
+     * one layer around: linear in all directions; @p c is the direction of the faces'
+     * normal, or dim for cell values.
      */
     template <int dim>
-    double
-    interpolate(const double      *padded,
-                const Sizes       &padded_size,
-                const unsigned int n,
-                const unsigned int c,
-                const unsigned int child,
-                const Sizes       &i)
+    double interpolate(const double *padded,
+                       const Sizes &padded_size,
+                       const unsigned int n,
+                       const unsigned int c,
+                       const unsigned int child,
+                       const Sizes &i)
     {
-      std::size_t  at      = 0;
-      std::size_t  stride  = 1;
-      double       slopes  = 0.;
-      std::size_t  strides[3] = {0, 0, 0};
-      double       offset[3]  = {0., 0., 0.};
-      bool         between    = false;
+      std::size_t at         = 0;
+      std::size_t stride     = 1;
+      double slopes          = 0.;
+      std::size_t strides[3] = {0, 0, 0};
+      double offset[3]       = {0., 0., 0.};
+      bool between           = false;
       for (unsigned int d = 0; d < dim; ++d)
         {
           const unsigned int fine = ((child >> d) & 1) * n + i[d];
@@ -74,9 +71,9 @@ namespace mitre::grid
 
   template <int dim>
   SolutionTransfer<dim>::SolutionTransfer(
-    PatchGrid<dim>                        &grid,
-    const StaggeredSpace<dim>             &space,
-    const CellHalo<dim>                   &cells,
+    PatchGrid<dim> &grid,
+    const StaggeredSpace<dim> &space,
+    const CellHalo<dim> &cells,
     const std::vector<const VectorType *> &velocities,
     const std::vector<const VectorType *> &cell_values)
     : grid(grid)
@@ -105,14 +102,13 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  std::vector<char>
-  SolutionTransfer<dim>::pack(const CellIterator &cell, const CellStatus status) const
+  std::vector<char> SolutionTransfer<dim>::pack(const CellIterator &cell,
+                                                const CellStatus status) const
   {
-    const unsigned int  n = grid.n_cells_per_side();
+    const unsigned int n = grid.n_cells_per_side();
     std::vector<double> data;
-    const auto          append = [&](const double *begin, const std::size_t size) {
+    const auto append = [&](const double *begin, const std::size_t size) {
       data.insert(data.end(), begin, begin + size);
     };
 
@@ -121,19 +117,19 @@ namespace mitre::grid
         for (const VectorType *u : velocities)
           for (unsigned int c = 0; c < dim; ++c)
             {
-              const Sizes         size = component_sizes<dim>(n, c);
+              const Sizes size = component_sizes<dim>(n, c);
               std::vector<double> mean(product(size), 0.);
               for (unsigned int child = 0; child < cell->n_children(); ++child)
                 {
                   const unsigned int p = grid.patch_of(cell->child(child));
-                  const double      *v = u->begin() + space.first_dof(p, c);
+                  const double *v      = u->begin() + space.first_dof(p, c);
                   for (unsigned int k = 0; k < size[2]; ++k)
                     for (unsigned int j = 0; j < size[1]; ++j)
                       for (unsigned int i = 0; i < size[0]; ++i)
                         {
-                          const Sizes  ijk = {{i, j, k}};
-                          std::size_t  to = 0, stride = 1;
-                          double       weight = 1.;
+                          const Sizes ijk = {{i, j, k}};
+                          std::size_t to = 0, stride = 1;
+                          double weight = 1.;
                           for (unsigned int d = 0; d < dim; ++d)
                             {
                               const unsigned int fine = ((child >> d) & 1) * n + ijk[d];
@@ -163,9 +159,9 @@ namespace mitre::grid
             std::vector<double> mean(cells.n_cells_per_patch(), 0.);
             for (unsigned int child = 0; child < cell->n_children(); ++child)
               {
-                const double *v = values->begin() +
-                                  static_cast<std::size_t>(grid.patch_of(cell->child(child))) *
-                                    cells.n_cells_per_patch();
+                const double *v = values->begin() + static_cast<std::size_t>(
+                                                      grid.patch_of(cell->child(child))) *
+                                                      cells.n_cells_per_patch();
                 for (unsigned int k = 0; k < nz; ++k)
                   for (unsigned int j = 0; j < n; ++j)
                     for (unsigned int i = 0; i < n; ++i)
@@ -182,17 +178,15 @@ namespace mitre::grid
       }
     else
       {
-        const bool         refine = (status == Triangulation<dim>::CELL_REFINE);
-        const unsigned int p      = grid.patch_of(cell);
+        const bool refine    = (status == Triangulation<dim>::CELL_REFINE);
+        const unsigned int p = grid.patch_of(cell);
         for (std::size_t v = 0; v < velocities.size(); ++v)
           for (unsigned int c = 0; c < dim; ++c)
             if (refine)
               {
                 std::vector<double> padded(velocity_halos[v]->size(c), 0.);
-                velocity_halos[v]->gather(velocity_halos[v]->last_import(),
-                                          p,
-                                          c,
-                                          padded.data());
+                velocity_halos[v]->gather(
+                  velocity_halos[v]->last_import(), p, c, padded.data());
                 append(padded.data(), padded.size());
               }
             else
@@ -206,25 +200,28 @@ namespace mitre::grid
               // no slope towards a boundary or a neighbour at another distance
               const unsigned int w = n + 2, nz = (dim == 3 ? n : 1);
               const unsigned int wz = w * w;
-              double            *first = padded.data() + 1 + w + (dim == 3 ? wz : 0);
+              double *first         = padded.data() + 1 + w + (dim == 3 ? wz : 0);
               for (unsigned int side = 0; side < 2 * dim; ++side)
                 if (grid.neighbor(p, side) != Neighbor::same)
                   {
-                    const unsigned int d = side / 2;
+                    const unsigned int d        = side / 2;
                     const std::ptrdiff_t normal = (d == 0 ? 1 : (d == 1 ? w : wz));
-                    const unsigned int a_step = (d == 0 ? w : 1), b_step = (d == 2 ? w : wz);
+                    const unsigned int a_step   = (d == 0 ? w : 1),
+                                       b_step   = (d == 2 ? w : wz);
                     double *inside = first + (side % 2 == 1 ? (n - 1) * normal : 0);
                     for (unsigned int b = 0; b < nz; ++b)
                       for (unsigned int a = 0; a < n; ++a)
                         {
                           double *cell_value = inside + a * a_step + b * b_step;
-                          *(cell_value + (side % 2 == 1 ? normal : -normal)) = *cell_value;
+                          *(cell_value + (side % 2 == 1 ? normal : -normal)) =
+                            *cell_value;
                         }
                   }
               append(padded.data(), padded.size());
             }
           else
-            append(values.begin() + static_cast<std::size_t>(p) * cells.n_cells_per_patch(),
+            append(values.begin() +
+                     static_cast<std::size_t>(p) * cells.n_cells_per_patch(),
                    cells.n_cells_per_patch());
       }
 
@@ -234,20 +231,18 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  void
-  SolutionTransfer<dim>::finish(const StaggeredSpace<dim>       &new_space,
-                                const std::vector<VectorType *> &new_velocities,
-                                const std::vector<VectorType *> &new_cell_values)
+  void SolutionTransfer<dim>::finish(const StaggeredSpace<dim> &new_space,
+                                     const std::vector<VectorType *> &new_velocities,
+                                     const std::vector<VectorType *> &new_cell_values)
   {
-    const unsigned int n               = grid.n_cells_per_side();
-    const std::size_t  cells_per_patch = Utilities::fixed_power<dim>(n);
+    const unsigned int n              = grid.n_cells_per_side();
+    const std::size_t cells_per_patch = Utilities::fixed_power<dim>(n);
 
     const auto unpack =
-      [&](const CellIterator                                                 &cell,
-          const CellStatus                                                    status,
-          const boost::iterator_range<std::vector<char>::const_iterator>     &range) {
+      [&](const CellIterator &cell,
+          const CellStatus status,
+          const boost::iterator_range<std::vector<char>::const_iterator> &range) {
         std::vector<double> data((range.end() - range.begin()) / sizeof(double));
         std::memcpy(data.data(), &*range.begin(), data.size() * sizeof(double));
         const double *from = data.data();
@@ -258,17 +253,18 @@ namespace mitre::grid
               for (unsigned int c = 0; c < dim; ++c)
                 {
                   const Sizes size = component_sizes<dim>(n, c);
-                  Sizes       padded{{1, 1, 1}};
+                  Sizes padded{{1, 1, 1}};
                   for (unsigned int d = 0; d < dim; ++d)
                     padded[d] = size[d] + 2;
                   for (unsigned int child = 0; child < cell->n_children(); ++child)
                     {
-                      double *to =
-                        u->begin() + new_space.first_dof(grid.patch_of(cell->child(child)), c);
+                      double *to = u->begin() + new_space.first_dof(
+                                                  grid.patch_of(cell->child(child)), c);
                       for (unsigned int k = 0; k < size[2]; ++k)
                         for (unsigned int j = 0; j < size[1]; ++j)
                           for (unsigned int i = 0; i < size[0]; ++i)
-                            *to++ = interpolate<dim>(from, padded, n, c, child, {{i, j, k}});
+                            *to++ =
+                              interpolate<dim>(from, padded, n, c, child, {{i, j, k}});
                     }
                   from += product(padded);
                 }
@@ -282,7 +278,8 @@ namespace mitre::grid
                     for (unsigned int k = 0; k < (dim == 3 ? n : 1); ++k)
                       for (unsigned int j = 0; j < n; ++j)
                         for (unsigned int i = 0; i < n; ++i)
-                          *to++ = interpolate<dim>(from, padded, n, dim, child, {{i, j, k}});
+                          *to++ =
+                            interpolate<dim>(from, padded, n, dim, child, {{i, j, k}});
                   }
                 from += product(padded);
               }
@@ -311,7 +308,6 @@ namespace mitre::grid
     for (VectorType *u : new_velocities)
       new_space.synchronize(*u);
   }
-
 
 
   template class SolutionTransfer<2>;

@@ -2,17 +2,17 @@
 #include <deal.II/base/partitioner.h>
 #include <deal.II/base/utilities.h>
 
-#include <mitre/grid/staggered_space.h>
-
 #include <algorithm>
+
+#include <mitre/grid/staggered_space.h>
 
 namespace mitre::grid
 {
   using namespace dealii;
 
   template <int dim>
-  void
-  LinearCombination<dim>::add(const LinearCombination<dim> &other, const double factor)
+  void LinearCombination<dim>::add(const LinearCombination<dim> &other,
+                                   const double factor)
   {
     for (const auto &entry : other.entries)
       entries.emplace_back(entry.first, entry.second * factor);
@@ -24,10 +24,8 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  void
-  LinearCombination<dim>::merge()
+  void LinearCombination<dim>::merge()
   {
     std::sort(entries.begin(), entries.end());
     std::size_t size = 0;
@@ -40,11 +38,9 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  unsigned int
-  CombinationTable<dim>::append(const unsigned int       destination,
-                                LinearCombination<dim> &&row)
+  unsigned int CombinationTable<dim>::append(const unsigned int destination,
+                                             LinearCombination<dim> &&row)
   {
     row.merge();
     const unsigned int number = destinations.size();
@@ -61,20 +57,16 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  void
-  CombinationTable<dim>::collect_indices(
+  void CombinationTable<dim>::collect_indices(
     std::vector<types::global_dof_index> &indices) const
   {
     indices.insert(indices.end(), global_columns.begin(), global_columns.end());
   }
 
 
-
   template <int dim>
-  void
-  CombinationTable<dim>::localize(const Utilities::MPI::Partitioner &partitioner)
+  void CombinationTable<dim>::localize(const Utilities::MPI::Partitioner &partitioner)
   {
     columns.resize(global_columns.size());
     for (std::size_t i = 0; i < columns.size(); ++i)
@@ -84,10 +76,8 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  void
-  CombinationTable<dim>::set_boundary_values(
+  void CombinationTable<dim>::set_boundary_values(
     const std::function<double(const BoundaryTerm<dim> &)> &prescribed)
   {
     if (boundary_terms.empty())
@@ -98,19 +88,16 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  std::size_t
-  CombinationTable<dim>::memory_consumption() const
+  std::size_t CombinationTable<dim>::memory_consumption() const
   {
     return destinations.size() * 8 + columns.size() * 12 +
            boundary_terms.size() * sizeof(boundary_terms[0]) + boundary_values.size() * 8;
   }
 
 
-
   template <int dim>
-  StaggeredSpace<dim>::StaggeredSpace(const PatchGrid<dim>     &grid,
+  StaggeredSpace<dim>::StaggeredSpace(const PatchGrid<dim> &grid,
                                       const BoundaryKinds<dim> &boundary_kinds)
     : patch_grid(grid)
     , kinds(boundary_kinds)
@@ -123,28 +110,24 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  Point<dim>
-  StaggeredSpace<dim>::position(const unsigned int p,
-                                const unsigned int c,
-                                const Index       &i) const
+  Point<dim> StaggeredSpace<dim>::position(const unsigned int p,
+                                           const unsigned int c,
+                                           const Index &i) const
   {
     const Patch<dim> &patch = patch_grid.patch(p);
-    Point<dim>        x;
+    Point<dim> x;
     for (unsigned int d = 0; d < dim; ++d)
       x[d] = patch.lower[d] + (i[d] + (d == c ? 0. : 0.5)) * patch.h[d];
     return x;
   }
 
 
-
   template <int dim>
-  Point<dim>
-  StaggeredSpace<dim>::boundary_position(const int          level,
-                                         const unsigned int c,
-                                         const Index       &index,
-                                         const unsigned int side) const
+  Point<dim> StaggeredSpace<dim>::boundary_position(const int level,
+                                                    const unsigned int c,
+                                                    const Index &index,
+                                                    const unsigned int side) const
   {
     const auto &[lower, upper] = patch_grid.box().get_boundary_points();
     Point<dim> x;
@@ -154,21 +137,20 @@ namespace mitre::grid
       else
         {
           const double h = patch_grid.cell_width(level, d);
-          x[d] = std::min(std::max(lower[d] + (index[d] + (d == c ? 0. : 0.5)) * h, lower[d]),
-                          upper[d]);
+          x[d] =
+            std::min(std::max(lower[d] + (index[d] + (d == c ? 0. : 0.5)) * h, lower[d]),
+                     upper[d]);
         }
     return x;
   }
 
 
-
   template <int dim>
-  types::global_dof_index
-  StaggeredSpace<dim>::find_entry(const int          level,
-                                  const unsigned int c,
-                                  const Index       &index) const
+  types::global_dof_index StaggeredSpace<dim>::find_entry(const int level,
+                                                          const unsigned int c,
+                                                          const Index &index) const
   {
-    const int in = n;
+    const int in    = n;
     const int faces = patch_grid.n_patches(level, c) * in;
 
     const auto number = [&](const unsigned int p, const Index &first) {
@@ -204,15 +186,13 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  bool
-  StaggeredSpace<dim>::combination(const int               level,
-                                   const unsigned int      c,
-                                   Index                   index,
-                                   const BoundaryExtension extension,
-                                   const bool              interpolate,
-                                   LinearCombination<dim> &result) const
+  bool StaggeredSpace<dim>::combination(const int level,
+                                        const unsigned int c,
+                                        Index index,
+                                        const BoundaryExtension extension,
+                                        const bool interpolate,
+                                        LinearCombination<dim> &result) const
   {
     // outside of the box: periodic image, or extension by the boundary condition
     for (unsigned int d = 0; d < dim; ++d)
@@ -229,7 +209,7 @@ namespace mitre::grid
           continue;
 
         const unsigned int side = 2 * d + (above ? 1 : 0);
-        const Point<dim>   x    = boundary_position(level, c, index, side);
+        const Point<dim> x      = boundary_position(level, c, index, side);
         const BoundaryInfo info = kinds(side, x);
 
         const auto add = [&](const int depth, const double weight) {
@@ -272,15 +252,16 @@ namespace mitre::grid
 
     // where leaves are finer: mean over the fine faces that make up the face
     {
-      constexpr unsigned int                   n_fine = 1u << (dim - 1);
+      constexpr unsigned int n_fine = 1u << (dim - 1);
       std::array<types::global_dof_index, n_fine> fine;
-      bool                                     all = true;
+      bool all = true;
       for (unsigned int k = 0; k < n_fine && all; ++k)
         {
-          Index        fine_index;
+          Index fine_index;
           unsigned int bit = 0;
           for (unsigned int d = 0; d < dim; ++d)
-            fine_index[d] = 2 * index[d] + (d == c ? 0 : static_cast<int>((k >> bit++) & 1));
+            fine_index[d] =
+              2 * index[d] + (d == c ? 0 : static_cast<int>((k >> bit++) & 1));
           fine[k] = find_entry(level + 1, c, fine_index);
           all     = fine[k] != numbers::invalid_dof_index;
         }
@@ -299,16 +280,14 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  bool
-  StaggeredSpace<dim>::interpolate_from_coarser(const int               level,
-                                                const unsigned int      c,
-                                                const Index            &index,
-                                                const BoundaryExtension extension,
-                                                const unsigned int      d,
-                                                Index                  &coarse,
-                                                LinearCombination<dim> &result) const
+  bool StaggeredSpace<dim>::interpolate_from_coarser(const int level,
+                                                     const unsigned int c,
+                                                     const Index &index,
+                                                     const BoundaryExtension extension,
+                                                     const unsigned int d,
+                                                     Index &coarse,
+                                                     LinearCombination<dim> &result) const
   {
     if (d == dim)
       return combination(level - 1, c, coarse, extension, false, result);
@@ -316,15 +295,15 @@ namespace mitre::grid
     // Stencils in order of preference: offsets from the base point, weights.
     struct Stencil
     {
-      unsigned int          size;
-      std::array<int, 3>    offset;
+      unsigned int size;
+      std::array<int, 3> offset;
       std::array<double, 3> weight;
     };
     const int base = (index[d] >= 0 ? index[d] / 2 : (index[d] - 1) / 2);
     const bool odd = (index[d] - 2 * base) == 1;
 
     std::array<Stencil, 5> stencils;
-    unsigned int           n_stencils;
+    unsigned int n_stencils;
     if (d == c)
       {
         if (!odd)
@@ -342,32 +321,31 @@ namespace mitre::grid
       }
     else
       {
-        const double s    = 0.25;
-        const int    near = odd ? 1 : -1; // the coarse neighbour on this side
-        stencils[0]       = {3,
-                             {{-near, 0, near}},
-                             {{0.5 * s * (s - 1), 1 - s * s, 0.5 * s * (s + 1)}}};
-        stencils[1]       = {3,
-                             {{0, near, 2 * near}},
-                             {{0.5 * (s - 1) * (s - 2), -s * (s - 2), 0.5 * s * (s - 1)}}};
-        stencils[2]       = {3,
-                             {{0, -near, -2 * near}},
-                             {{0.5 * (s + 1) * (s + 2), -s * (s + 2), 0.5 * s * (s + 1)}}};
-        stencils[3]       = {2, {{0, near, 0}}, {{1 - s, s, 0.}}};
-        stencils[4]       = {1, {{0, 0, 0}}, {{1., 0., 0.}}};
-        n_stencils        = 5;
+        const double s = 0.25;
+        const int near = odd ? 1 : -1; // the coarse neighbour on this side
+        stencils[0]    = {
+             3, {{-near, 0, near}}, {{0.5 * s * (s - 1), 1 - s * s, 0.5 * s * (s + 1)}}};
+        stencils[1] = {3,
+                       {{0, near, 2 * near}},
+                       {{0.5 * (s - 1) * (s - 2), -s * (s - 2), 0.5 * s * (s - 1)}}};
+        stencils[2] = {3,
+                       {{0, -near, -2 * near}},
+                       {{0.5 * (s + 1) * (s + 2), -s * (s + 2), 0.5 * s * (s + 1)}}};
+        stencils[3] = {2, {{0, near, 0}}, {{1 - s, s, 0.}}};
+        stencils[4] = {1, {{0, 0, 0}}, {{1., 0., 0.}}};
+        n_stencils  = 5;
       }
 
     for (unsigned int k = 0; k < n_stencils; ++k)
       {
         LinearCombination<dim> candidate;
-        bool                   possible = true;
+        bool possible = true;
         for (unsigned int j = 0; j < stencils[k].size && possible; ++j)
           {
             coarse[d] = base + stencils[k].offset[j];
             LinearCombination<dim> part;
-            possible = interpolate_from_coarser(
-              level, c, index, extension, d + 1, coarse, part);
+            possible =
+              interpolate_from_coarser(level, c, index, extension, d + 1, coarse, part);
             if (possible)
               candidate.add(part, stencils[k].weight[j]);
           }
@@ -381,10 +359,8 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  void
-  StaggeredSpace<dim>::build_copies()
+  void StaggeredSpace<dim>::build_copies()
   {
     const auto n_plane = Utilities::fixed_power<dim - 1>(n);
     for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
@@ -392,10 +368,10 @@ namespace mitre::grid
         if (patch_grid.neighbor(p, 2 * c + 1) == Neighbor::same)
           {
             Index offset{};
-            offset[c]              = 1;
-            const unsigned int  q  = patch_grid.neighbor_patch(p, offset);
-            const unsigned int  s  = stride(c, c);
-            const std::size_t   to = first_dof(p, c) + n * s;
+            offset[c]            = 1;
+            const unsigned int q = patch_grid.neighbor_patch(p, offset);
+            const unsigned int s = stride(c, c);
+            const std::size_t to = first_dof(p, c) + n * s;
             if (q < patch_grid.n_owned_patches())
               plane_copies.push_back({to, first_dof(q, c), c});
             else
@@ -413,10 +389,8 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  void
-  StaggeredSpace<dim>::build_interfaces()
+  void StaggeredSpace<dim>::build_interfaces()
   {
     for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
       for (unsigned int side = 0; side < 2 * dim; ++side)
@@ -426,14 +400,14 @@ namespace mitre::grid
           if (patch_grid.neighbor(p, side) != Neighbor::coarser)
             continue;
 
-          const Patch<dim>  &patch = patch_grid.patch(p);
-          const unsigned int c     = side / 2;
-          const unsigned int s     = stride(c, c);
-          const int          plane = (side % 2 == 0 ? 0 : n);
+          const Patch<dim> &patch = patch_grid.patch(p);
+          const unsigned int c    = side / 2;
+          const unsigned int s    = stride(c, c);
+          const int plane         = (side % 2 == 0 ? 0 : n);
           for (unsigned int i = 0; i < Utilities::fixed_power<dim - 1>(n); ++i)
             {
               // index of the fine face on the patch and of the coarse face that has it
-              Index        fine, coarse;
+              Index fine, coarse;
               unsigned int rest = i;
               for (unsigned int d = 0; d < dim; ++d)
                 {
@@ -447,30 +421,32 @@ namespace mitre::grid
                   coarse[d] = (patch.index[d] * static_cast<int>(n) + fine[d]) / 2;
                 }
 
-              const auto value_at = [&](const Index &index, LinearCombination<dim> &value) {
+              const auto value_at = [&](const Index &index,
+                                        LinearCombination<dim> &value) {
                 for (unsigned int d = 0; d < dim; ++d)
                   if (!patch_grid.periodic()[d] && d != c &&
-                      (index[d] < 0 || index[d] >= patch_grid.n_patches(patch.level - 1, d) *
-                                                     static_cast<int>(n)))
+                      (index[d] < 0 ||
+                       index[d] >=
+                         patch_grid.n_patches(patch.level - 1, d) * static_cast<int>(n)))
                     return false;
                 return combination(
                   patch.level - 1, c, index, BoundaryExtension::reflection, false, value);
               };
 
               LinearCombination<dim> row, center;
-              const bool             found = value_at(coarse, center);
+              const bool found = value_at(coarse, center);
               AssertThrow(found, ExcInternalError());
               row.add(center, 1.);
               for (unsigned int d = 0; d < dim; ++d)
                 if (d != c)
                   {
-                    const double           offset = (fine[d] % 2 == 0 ? -0.25 : 0.25);
+                    const double offset = (fine[d] % 2 == 0 ? -0.25 : 0.25);
                     LinearCombination<dim> below, above;
-                    Index                  index = coarse;
-                    index[d]                     = coarse[d] - 1;
-                    const bool has_below         = value_at(index, below);
-                    index[d]                     = coarse[d] + 1;
-                    const bool has_above         = value_at(index, above);
+                    Index index          = coarse;
+                    index[d]             = coarse[d] - 1;
+                    const bool has_below = value_at(index, below);
+                    index[d]             = coarse[d] + 1;
+                    const bool has_above = value_at(index, above);
                     if (has_below && has_above)
                       {
                         row.add(above, 0.5 * offset);
@@ -495,26 +471,24 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  void
-  StaggeredSpace<dim>::build_boundary()
+  void StaggeredSpace<dim>::build_boundary()
   {
     for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
       for (unsigned int side = 0; side < 2 * dim; ++side)
         if (patch_grid.neighbor(p, side) == Neighbor::boundary)
           {
-            const unsigned int c     = side / 2;
-            const int          plane = (side % 2 == 0 ? 0 : n);
+            const unsigned int c = side / 2;
+            const int plane      = (side % 2 == 0 ? 0 : n);
             for (unsigned int i = 0; i < Utilities::fixed_power<dim - 1>(n); ++i)
               {
-                Index        index;
+                Index index;
                 unsigned int rest = i;
                 BoundaryFace face;
-                face.patch          = p;
-                face.side           = side;
-                face.dof            = first_dof(p, c);
-                face.cell           = 0;
+                face.patch                   = p;
+                face.side                    = side;
+                face.dof                     = first_dof(p, c);
+                face.cell                    = 0;
                 unsigned int stride_of_cells = 1;
                 for (unsigned int d = 0; d < dim; ++d)
                   {
@@ -529,7 +503,7 @@ namespace mitre::grid
                     face.cell += std::min<int>(index[d], n - 1) * stride_of_cells;
                     stride_of_cells *= n;
                   }
-                face.x = position(p, c, index);
+                face.x                  = position(p, c, index);
                 const BoundaryInfo info = kinds(side, face.x);
                 face.condition          = info.condition;
                 if (info.kind == BoundaryKind::traction)
@@ -541,28 +515,24 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  IndexSet
-  StaggeredSpace<dim>::owned_entries() const
+  IndexSet StaggeredSpace<dim>::owned_entries() const
   {
     const types::global_dof_index begin =
-      patch_grid.n_owned_patches() == 0 ?
-        0 :
-        patch_grid.patch(0).global_id * n_dofs_per_patch();
+      patch_grid.n_owned_patches() == 0
+        ? 0
+        : patch_grid.patch(0).global_id * n_dofs_per_patch();
     IndexSet owned(patch_grid.n_global_patches() * n_dofs_per_patch());
     owned.add_range(begin,
-                    begin + static_cast<types::global_dof_index>(
-                              patch_grid.n_owned_patches()) *
-                              n_dofs_per_patch());
+                    begin +
+                      static_cast<types::global_dof_index>(patch_grid.n_owned_patches()) *
+                        n_dofs_per_patch());
     return owned;
   }
 
 
-
   template <int dim>
-  void
-  StaggeredSpace<dim>::finalize(std::vector<types::global_dof_index> &&ghosts)
+  void StaggeredSpace<dim>::finalize(std::vector<types::global_dof_index> &&ghosts)
   {
     interface_faces.collect_indices(ghosts);
     for (const auto &copy : remote_copies)
@@ -606,22 +576,18 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  void
-  StaggeredSpace<dim>::initialize_vector(VectorType &vector) const
+  void StaggeredSpace<dim>::initialize_vector(VectorType &vector) const
   {
     Assert(vector_partitioner, ExcMessage("finalize() must be called first."));
     vector.reinit(vector_partitioner);
   }
 
 
-
   template <int dim>
-  void
-  StaggeredSpace<dim>::copy_from_masters(VectorType &u) const
+  void StaggeredSpace<dim>::copy_from_masters(VectorType &u) const
   {
-    double            *values = u.begin();
+    double *values             = u.begin();
     const unsigned int n_plane = Utilities::fixed_power<dim - 1>(n);
     for (const PlaneCopy &copy : plane_copies)
       {
@@ -636,10 +602,8 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  void
-  StaggeredSpace<dim>::follow_interfaces(VectorType &u) const
+  void StaggeredSpace<dim>::follow_interfaces(VectorType &u) const
   {
     double *values = u.begin();
     for (unsigned int row = 0; row < interface_faces.n_rows(); ++row)
@@ -647,10 +611,8 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  void
-  StaggeredSpace<dim>::synchronize(VectorType &u) const
+  void StaggeredSpace<dim>::synchronize(VectorType &u) const
   {
     u.update_ghost_values();
     copy_from_masters(u);
@@ -663,10 +625,8 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  void
-  StaggeredSpace<dim>::collect(VectorType &f) const
+  void StaggeredSpace<dim>::collect(VectorType &f) const
   {
     f.zero_out_ghost_values();
     double *values = f.begin();
@@ -702,15 +662,12 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  void
-  StaggeredSpace<dim>::zero_fixed_faces(VectorType &u) const
+  void StaggeredSpace<dim>::zero_fixed_faces(VectorType &u) const
   {
     for (const BoundaryFace &face : fixed)
       u.local_element(face.dof) = 0.;
   }
-
 
 
   template struct LinearCombination<2>;

@@ -2,10 +2,10 @@
 #include <deal.II/base/partitioner.h>
 #include <deal.II/base/utilities.h>
 
-#include <mitre/grid/velocity_halo.h>
-
 #include <algorithm>
 #include <cstring>
+
+#include <mitre/grid/velocity_halo.h>
 
 namespace mitre::grid
 {
@@ -14,15 +14,13 @@ namespace mitre::grid
   namespace
   {
     template <int dim>
-    constexpr unsigned int
-    n_directions()
+    constexpr unsigned int n_directions()
     {
       return dim == 2 ? 9 : 27;
     }
 
     template <int dim>
-    std::array<int, dim>
-    direction_offset(unsigned int direction)
+    std::array<int, dim> direction_offset(unsigned int direction)
     {
       std::array<int, dim> offset;
       for (unsigned int d = 0; d < dim; ++d)
@@ -37,9 +35,9 @@ namespace mitre::grid
 
   template <int dim>
   VelocityHalo<dim>::VelocityHalo(const StaggeredSpace<dim> &space,
-                                  const unsigned int         width,
-                                  const HaloShape            shape,
-                                  const BoundaryExtension    extension)
+                                  const unsigned int width,
+                                  const HaloShape shape,
+                                  const BoundaryExtension extension)
     : space(space)
     , n(space.grid().n_cells_per_side())
     , g(width)
@@ -54,10 +52,8 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  std::array<unsigned int, dim>
-  VelocityHalo<dim>::extents(const unsigned int c) const
+  std::array<unsigned int, dim> VelocityHalo<dim>::extents(const unsigned int c) const
   {
     std::array<unsigned int, dim> result;
     for (unsigned int d = 0; d < dim; ++d)
@@ -66,10 +62,8 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  std::size_t
-  VelocityHalo<dim>::size(const unsigned int c) const
+  std::size_t VelocityHalo<dim>::size(const unsigned int c) const
   {
     std::size_t product = 1;
     for (const unsigned int e : extents(c))
@@ -78,10 +72,8 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  void
-  VelocityHalo<dim>::build()
+  void VelocityHalo<dim>::build()
   {
     const PatchGrid<dim> &grid = space.grid();
 
@@ -89,16 +81,16 @@ namespace mitre::grid
     for (unsigned int direction = 0; direction < n_directions<dim>(); ++direction)
       for (unsigned int c = 0; c < dim; ++c)
         {
-          const auto  offset = direction_offset<dim>(direction);
-          BlockShape &shape  = shapes[direction][c];
-          shape.size         = {{1, 1, 1}};
-          shape.from         = 0;
-          shape.to           = 0;
+          const auto offset     = direction_offset<dim>(direction);
+          BlockShape &shape     = shapes[direction][c];
+          shape.size            = {{1, 1, 1}};
+          shape.from            = 0;
+          shape.to              = 0;
           std::size_t to_stride = 1;
           for (unsigned int d = 0; d < dim; ++d)
             {
               const unsigned int own = space.extent(c, d);
-              unsigned int       from, to;
+              unsigned int from, to;
               if (offset[d] == 0)
                 {
                   shape.size[d] = own;
@@ -123,13 +115,14 @@ namespace mitre::grid
             }
         }
 
-    block_starts  = {0};
-    single_starts = {0};
-    row_starts    = {0};
+    block_starts                     = {0};
+    single_starts                    = {0};
+    row_starts                       = {0};
     const unsigned int own_direction = n_directions<dim>() / 2;
 
-    std::vector<std::vector<std::pair<unsigned int, types::global_dof_index>>> singles(dim);
-    std::vector<std::vector<std::pair<unsigned int, LinearCombination<dim>>>>  combos(dim);
+    std::vector<std::vector<std::pair<unsigned int, types::global_dof_index>>> singles(
+      dim);
+    std::vector<std::vector<std::pair<unsigned int, LinearCombination<dim>>>> combos(dim);
 
     for (unsigned int p = 0; p < grid.n_owned_patches(); ++p)
       {
@@ -142,7 +135,7 @@ namespace mitre::grid
           {
             if (direction == own_direction)
               continue;
-            const auto   offset = direction_offset<dim>(direction);
+            const auto offset      = direction_offset<dim>(direction);
             unsigned int n_nonzero = 0;
             for (const int o : offset)
               n_nonzero += (o != 0 ? 1 : 0);
@@ -159,9 +152,9 @@ namespace mitre::grid
             for (unsigned int c = 0; c < dim; ++c)
               {
                 const BlockShape &shape = shapes[direction][c];
-                const auto        ext   = extents(c);
+                const auto ext          = extents(c);
                 // first entry of the block, relative to the patch's own entries
-                Index       start;
+                Index start;
                 std::size_t rest = shape.to;
                 for (unsigned int d = 0; d < dim; ++d)
                   {
@@ -174,7 +167,7 @@ namespace mitre::grid
                       {
                         const std::array<unsigned int, 3> ijk = {{i, j, k}};
                         unsigned int to = shape.to, to_stride = 1, from = shape.from;
-                        Index        index;
+                        Index index;
                         for (unsigned int d = 0; d < dim; ++d)
                           {
                             to += ijk[d] * to_stride;
@@ -184,14 +177,14 @@ namespace mitre::grid
                                        static_cast<int>(ijk[d]);
                           }
                         if (q != numbers::invalid_unsigned_int)
-                          singles[c].emplace_back(to,
-                                                  grid.patch(q).global_id *
-                                                      space.n_dofs_per_patch() +
-                                                    c * space.n_dofs_per_component() + from);
+                          singles[c].emplace_back(
+                            to,
+                            grid.patch(q).global_id * space.n_dofs_per_patch() +
+                              c * space.n_dofs_per_component() + from);
                         else
                           {
                             LinearCombination<dim> row;
-                            const bool             found = space.combination(
+                            const bool found = space.combination(
                               patch.level, c, index, extension, true, row);
                             AssertThrow(found, ExcInternalError());
                             combos[c].emplace_back(to, std::move(row));
@@ -216,20 +209,16 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  void
-  VelocityHalo<dim>::add_ghosts(std::vector<types::global_dof_index> &ghosts) const
+  void VelocityHalo<dim>::add_ghosts(std::vector<types::global_dof_index> &ghosts) const
   {
     ghosts.insert(ghosts.end(), single_from_global.begin(), single_from_global.end());
     rows.collect_indices(ghosts);
   }
 
 
-
   template <int dim>
-  void
-  VelocityHalo<dim>::localize(
+  void VelocityHalo<dim>::localize(
     const std::shared_ptr<const Utilities::MPI::Partitioner> &new_partitioner)
   {
     partitioner = new_partitioner;
@@ -242,12 +231,10 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  void
-  VelocityHalo<dim>::make_own_partitioner()
+  void VelocityHalo<dim>::make_own_partitioner()
   {
-    const IndexSet                       owned = space.owned_entries();
+    const IndexSet owned = space.owned_entries();
     std::vector<types::global_dof_index> ghosts;
     add_ghosts(ghosts);
     std::sort(ghosts.begin(), ghosts.end());
@@ -262,10 +249,8 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  const VectorType &
-  VelocityHalo<dim>::import(const VectorType &u)
+  const VectorType &VelocityHalo<dim>::import(const VectorType &u)
   {
     std::memcpy(imported.begin(), u.begin(), u.locally_owned_size() * sizeof(double));
     imported.update_ghost_values();
@@ -273,23 +258,19 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  void
-  VelocityHalo<dim>::set_boundary_values(
+  void VelocityHalo<dim>::set_boundary_values(
     const std::function<double(const BoundaryTerm<dim> &)> &prescribed)
   {
     rows.set_boundary_values(prescribed);
   }
 
 
-
   template <int dim>
-  void
-  VelocityHalo<dim>::copy_block(const BlockShape  &shape,
-                                const unsigned int c,
-                                const double      *from,
-                                double            *padded) const
+  void VelocityHalo<dim>::copy_block(const BlockShape &shape,
+                                     const unsigned int c,
+                                     const double *from,
+                                     double *padded) const
   {
     const unsigned int from_y = space.extent(c, 0), from_z = from_y * space.extent(c, 1);
     const unsigned int to_y = from_y + 2 * g, to_z = to_y * (space.extent(c, 1) + 2 * g);
@@ -301,14 +282,12 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  void
-  VelocityHalo<dim>::gather(const VectorType  &u,
-                            const unsigned int p,
-                            const unsigned int c,
-                            double            *padded,
-                            const bool         with_boundary_values) const
+  void VelocityHalo<dim>::gather(const VectorType &u,
+                                 const unsigned int p,
+                                 const unsigned int c,
+                                 double *padded,
+                                 const bool with_boundary_values) const
   {
     const double *values = u.begin();
     copy_block(
@@ -329,26 +308,22 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  void
-  VelocityHalo<dim>::begin_scatter()
+  void VelocityHalo<dim>::begin_scatter()
   {
     accumulator = 0.;
   }
 
 
-
   template <int dim>
-  void
-  VelocityHalo<dim>::scatter_add(const unsigned int p,
-                                 const unsigned int c,
-                                 const double      *padded)
+  void VelocityHalo<dim>::scatter_add(const unsigned int p,
+                                      const unsigned int c,
+                                      const double *padded)
   {
-    double            *values = accumulator.begin();
+    double *values            = accumulator.begin();
     const unsigned int from_y = space.extent(c, 0), from_z = from_y * space.extent(c, 1);
     const unsigned int to_y = from_y + 2 * g, to_z = to_y * (space.extent(c, 1) + 2 * g);
-    const auto         add_block = [&](const BlockShape &shape, double *from) {
+    const auto add_block = [&](const BlockShape &shape, double *from) {
       for (unsigned int k = 0; k < shape.size[2]; ++k)
         for (unsigned int j = 0; j < shape.size[1]; ++j)
           for (unsigned int i = 0; i < shape.size[0]; ++i)
@@ -368,10 +343,8 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  void
-  VelocityHalo<dim>::end_scatter(VectorType &density, VectorType *total)
+  void VelocityHalo<dim>::end_scatter(VectorType &density, VectorType *total)
   {
     accumulator.compress(VectorOperation::add);
     density.zero_out_ghost_values();
@@ -386,15 +359,12 @@ namespace mitre::grid
   }
 
 
-
   template <int dim>
-  std::size_t
-  VelocityHalo<dim>::memory_consumption() const
+  std::size_t VelocityHalo<dim>::memory_consumption() const
   {
     return rows.memory_consumption() + single_to.size() * 8 + blocks.size() * 8 +
            imported.memory_consumption() + accumulator.memory_consumption();
   }
-
 
 
   template class VelocityHalo<2>;

@@ -1,10 +1,10 @@
 #ifndef mitre_fluid_advection_h
 #define mitre_fluid_advection_h
 
-#include <mitre/grid/velocity_halo.h>
-
 #include <memory>
 #include <string>
+
+#include <mitre/grid/velocity_halo.h>
 
 namespace mitre::fluid
 {
@@ -42,19 +42,19 @@ namespace mitre::fluid
      * velocities at the boundary are those; else zero.
      */
     void
-    apply(grid::VectorType                                             &dst,
-          const grid::VectorType                                       &u,
+    apply(grid::VectorType &dst,
+          const grid::VectorType &u,
           const std::function<double(const grid::BoundaryTerm<dim> &)> &prescribed = {});
 
   private:
     template <AdvectionScheme scheme>
-    void apply_scheme(grid::VectorType       &dst,
+    void apply_scheme(grid::VectorType &dst,
                       const grid::VectorType &imported,
-                      const bool              inhomogeneous) const;
+                      const bool inhomogeneous) const;
 
     const grid::StaggeredSpace<dim> &space;
-    const AdvectionScheme            scheme;
-    grid::VelocityHalo<dim>          halo;
+    const AdvectionScheme scheme;
+    grid::VelocityHalo<dim> halo;
   };
 } // namespace mitre::fluid
 

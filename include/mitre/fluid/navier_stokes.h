@@ -1,25 +1,25 @@
 #ifndef mitre_fluid_navier_stokes_h
 #define mitre_fluid_navier_stokes_h
 
+#include <functional>
+#include <memory>
+
 #include <mitre/fluid/advection.h>
 #include <mitre/fluid/boundary_conditions/interface.h>
 #include <mitre/fluid/stokes_solver.h>
 #include <mitre/grid/solution_transfer.h>
 
-#include <functional>
-#include <memory>
-
 namespace mitre::fluid
 {
   struct FluidParameters
   {
-    double                 density   = 1.;
-    double                 viscosity = 0.04;
-    AdvectionScheme        advection = AdvectionScheme::ppm;
+    double density            = 1.;
+    double viscosity          = 0.04;
+    AdvectionScheme advection = AdvectionScheme::ppm;
     StokesSolverParameters solver;
 
     static void declare_parameters(dealii::ParameterHandler &prm);
-    void        parse_parameters(dealii::ParameterHandler &prm);
+    void parse_parameters(dealii::ParameterHandler &prm);
   };
 
 
@@ -40,9 +40,9 @@ namespace mitre::fluid
   class NavierStokes
   {
   public:
-    NavierStokes(grid::PatchGrid<dim>          &patch_grid,
+    NavierStokes(grid::PatchGrid<dim> &patch_grid,
                  const BoundaryConditions<dim> &boundary_conditions,
-                 const FluidParameters         &parameters);
+                 const FluidParameters &parameters);
 
     /// Velocity component c at a point, as an initial value.
     using VelocityFunction =
@@ -51,8 +51,7 @@ namespace mitre::fluid
     /// Sets the velocity [cm/s] from a function and makes it divergence-free.
     void set_velocity(const VelocityFunction &function, const double time);
 
-    bool
-    is_first_step() const
+    bool is_first_step() const
     {
       return !has_history;
     }
@@ -65,60 +64,53 @@ namespace mitre::fluid
      * One step from @p time to time + dt with the force density at its middle. Returns
      * the number of iterations of the solver.
      */
-    unsigned int advance(const double time, const double dt, const grid::VectorType &force);
+    unsigned int
+    advance(const double time, const double dt, const grid::VectorType &force);
 
     /// Carries the state to a grid with the wanted levels; returns whether it changed.
     bool regrid(const std::function<int(const dealii::BoundingBox<dim> &)> &wanted_level,
-                const double                                                time);
+                const double time);
 
     /// u^n [cm/s], consistent.
-    const grid::VectorType &
-    velocity() const
+    const grid::VectorType &velocity() const
     {
       return u;
     }
 
     /// u^(n-1): the velocity before the last advance().
-    const grid::VectorType &
-    previous_velocity() const
+    const grid::VectorType &previous_velocity() const
     {
       return u_old;
     }
 
     /// p^(n-1/2) [dyn/cm^2].
-    const grid::VectorType &
-    pressure() const
+    const grid::VectorType &pressure() const
     {
       return p;
     }
 
-    const grid::StaggeredSpace<dim> &
-    space() const
+    const grid::StaggeredSpace<dim> &space() const
     {
       return *velocity_space;
     }
 
-    const StokesOperators<dim> &
-    operators() const
+    const StokesOperators<dim> &operators() const
     {
       return *stokes_operators;
     }
 
-    const StokesSolver<dim> &
-    solver() const
+    const StokesSolver<dim> &solver() const
     {
       return *stokes_solver;
     }
 
-    const FluidParameters &
-    fluid_parameters() const
+    const FluidParameters &fluid_parameters() const
     {
       return parameters;
     }
 
     /// Number of iterations of the projection after the last change of the grid.
-    unsigned int
-    last_projection_iterations() const
+    unsigned int last_projection_iterations() const
     {
       return projection_iterations;
     }
@@ -127,36 +119,37 @@ namespace mitre::fluid
     void setup();
     void set_time_step(const double dt);
     void set_fixed_faces(grid::VectorType &velocity, const double time) const;
-    std::function<double(const grid::BoundaryTerm<dim> &)> prescribed(const double time) const;
-    void compute_advection(grid::VectorType       &dst,
+    std::function<double(const grid::BoundaryTerm<dim> &)>
+    prescribed(const double time) const;
+    void compute_advection(grid::VectorType &dst,
                            const grid::VectorType &velocity,
-                           const double            time);
-    unsigned int solve(grid::VectorType       &u_new,
-                       grid::VectorType       &p_new,
+                           const double time);
+    unsigned int solve(grid::VectorType &u_new,
+                       grid::VectorType &p_new,
                        const grid::VectorType &advection_term,
                        const grid::VectorType &force,
-                       const double            time,
-                       const double            dt);
+                       const double time,
+                       const double dt);
 
-    grid::PatchGrid<dim>          &patch_grid;
+    grid::PatchGrid<dim> &patch_grid;
     const BoundaryConditions<dim> &boundary_conditions;
-    const FluidParameters          parameters;
-    const bool                     velocities_zero;
+    const FluidParameters parameters;
+    const bool velocities_zero;
 
     std::unique_ptr<grid::StaggeredSpace<dim>> velocity_space;
-    std::unique_ptr<StokesOperators<dim>>      stokes_operators;
-    std::unique_ptr<StokesSolver<dim>>         stokes_solver;
-    std::unique_ptr<Advection<dim>>            advection;
+    std::unique_ptr<StokesOperators<dim>> stokes_operators;
+    std::unique_ptr<StokesSolver<dim>> stokes_solver;
+    std::unique_ptr<Advection<dim>> advection;
 
     grid::VectorType u, u_old, p, p_old;
     grid::VectorType advection_old;
     grid::VectorType provisional;
     grid::VectorType u_new, p_new, advection_new, rhs, work;
-    double           last_dt       = 0.;
-    bool             has_history   = false;
-    bool             has_predicted = false;
-    unsigned int     n_steps_since_change = 0;
-    unsigned int     projection_iterations = 0;
+    double last_dt                     = 0.;
+    bool has_history                   = false;
+    bool has_predicted                 = false;
+    unsigned int n_steps_since_change  = 0;
+    unsigned int projection_iterations = 0;
   };
 } // namespace mitre::fluid
 

@@ -5,10 +5,10 @@
 #include <deal.II/lac/sparse_matrix.h>
 #include <deal.II/lac/vector.h>
 
-#include <mitre/grid/cell_halo.h>
-
 #include <memory>
 #include <vector>
+
+#include <mitre/grid/cell_halo.h>
 
 namespace mitre::fluid
 {
@@ -36,14 +36,13 @@ namespace mitre::fluid
      * @param smoothing_steps Chebyshev degree before and after each coarse correction
      */
     PressureMultigrid(const grid::StaggeredSpace<dim> &space,
-                      const unsigned int               smoothing_steps);
+                      const unsigned int smoothing_steps);
 
     /// One V-cycle from zero for -div grad dst = src.
     void vmult(grid::VectorType &dst, const grid::VectorType &src);
 
     /// True if the pressure is defined up to a constant only.
-    bool
-    is_singular() const
+    bool is_singular() const
     {
       return singular;
     }
@@ -52,8 +51,7 @@ namespace mitre::fluid
     /// coarse-fine interfaces).
     void apply(grid::VectorType &dst, const grid::VectorType &src);
 
-    unsigned int
-    n_levels() const
+    unsigned int n_levels() const
     {
       return levels.size();
     }
@@ -63,24 +61,24 @@ namespace mitre::fluid
   private:
     struct Level
     {
-      unsigned int                                  m;
-      std::unique_ptr<grid::CellHalo<dim, Number>>  halo;
-      LevelVector                                   solution, rhs, update, residual;
-      LevelVector                                   inverse_diagonal;
+      unsigned int m;
+      std::unique_ptr<grid::CellHalo<dim, Number>> halo;
+      LevelVector solution, rhs, update, residual;
+      LevelVector inverse_diagonal;
       /// Per owned patch: 1 / h^2 in each direction.
-      std::vector<std::array<Number, dim>>          inverse_h2;
+      std::vector<std::array<Number, dim>> inverse_h2;
       /// Per owned patch and side: where its open fractions start, or -1.
-      std::vector<int>                              open_start;
+      std::vector<int> open_start;
       /// Fraction of the boundary faces of cells that are open.
-      std::vector<Number>                           open_fraction;
+      std::vector<Number> open_fraction;
     };
 
     void build_level(Level &level, const unsigned int m, const Level *finer);
     void build_coarse_solver();
-    void gather(const Level       &level,
+    void gather(const Level &level,
                 const LevelVector &v,
                 const unsigned int p,
-                Number            *padded) const;
+                Number *padded) const;
     template <typename Operation>
     void for_each_row(Level &level, LevelVector &x, const Operation &operation);
     void smooth(Level &level, const bool zero_start);
@@ -88,16 +86,16 @@ namespace mitre::fluid
     void solve_coarsest();
 
     const grid::StaggeredSpace<dim> &space;
-    const grid::PatchGrid<dim>      &patch_grid;
-    const unsigned int               n_smoothing_steps;
-    bool                             singular;
+    const grid::PatchGrid<dim> &patch_grid;
+    const unsigned int n_smoothing_steps;
+    bool singular;
     std::vector<std::unique_ptr<Level>> levels;
 
-    dealii::SparsityPattern     coarse_sparsity;
+    dealii::SparsityPattern coarse_sparsity;
     dealii::SparseMatrix<double> coarse_matrix;
     dealii::SparseDirectUMFPACK coarse_inverse;
-    dealii::Vector<double>      coarse_values, coarse_volumes;
-    std::vector<int>            coarse_counts, coarse_starts;
+    dealii::Vector<double> coarse_values, coarse_volumes;
+    std::vector<int> coarse_counts, coarse_starts;
   };
 } // namespace mitre::fluid
 

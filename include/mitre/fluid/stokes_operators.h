@@ -1,12 +1,12 @@
 #ifndef mitre_fluid_stokes_operators_h
 #define mitre_fluid_stokes_operators_h
 
+#include <memory>
+#include <vector>
+
 #include <mitre/grid/cell_halo.h>
 #include <mitre/grid/staggered_space.h>
 #include <mitre/grid/velocity_halo.h>
-
-#include <memory>
-#include <vector>
 
 namespace mitre::fluid
 {
@@ -14,8 +14,8 @@ namespace mitre::fluid
    * Staggered difference operators on the composite grid: vector Laplacian, pressure
    * gradient and divergence, all in the form of values per volume.
    *
-   * With V the cell volumes and W the faces' control volumes, W grad = - C^T D^T V where D
-   * is the divergence of all faces and C gives the copied faces from their masters (see
+   * With V the cell volumes and W the faces' control volumes, W grad = - C^T D^T V where
+   * D is the divergence of all faces and C gives the copied faces from their masters (see
    * grid::StaggeredSpace), so that div grad is symmetric and the pressure does no work on
    * a divergence-free velocity, also across levels. Open boundary faces are half a cell
    * from the pressure next to them.
@@ -32,14 +32,12 @@ namespace mitre::fluid
      */
     explicit StokesOperators(grid::StaggeredSpace<dim> &space);
 
-    void
-    initialize_velocity(grid::VectorType &u) const
+    void initialize_velocity(grid::VectorType &u) const
     {
       space.initialize_vector(u);
     }
 
-    void
-    initialize_pressure(grid::VectorType &p) const
+    void initialize_pressure(grid::VectorType &p) const
     {
       cell_halo.initialize_vector(p);
     }
@@ -47,13 +45,12 @@ namespace mitre::fluid
     /// dst = a u + b laplace(u); prescribed boundary values enter if @p inhomogeneous.
     void apply_helmholtz(grid::VectorType &dst,
                          grid::VectorType &u,
-                         const double      a,
-                         const double      b,
-                         const bool        inhomogeneous) const;
+                         const double a,
+                         const double b,
+                         const bool inhomogeneous) const;
 
     /// dst = (add ? dst : 0) + grad p, with zero pressure on open faces.
-    void
-    apply_gradient(grid::VectorType &dst, grid::VectorType &p, const bool add) const;
+    void apply_gradient(grid::VectorType &dst, grid::VectorType &p, const bool add) const;
 
     /// dst = div u; @p u must be consistent.
     void apply_divergence(grid::VectorType &dst, const grid::VectorType &u) const;
@@ -68,21 +65,18 @@ namespace mitre::fluid
     double mean_pressure(const grid::VectorType &p) const;
 
     /// Sets the prescribed tangential velocities for inhomogeneous products.
-    void
-    set_boundary_values(
+    void set_boundary_values(
       const std::function<double(const grid::BoundaryTerm<dim> &)> &prescribed)
     {
       velocity_halo.set_boundary_values(prescribed);
     }
 
-    const grid::StaggeredSpace<dim> &
-    velocity_space() const
+    const grid::StaggeredSpace<dim> &velocity_space() const
     {
       return space;
     }
 
-    const grid::CellHalo<dim> &
-    pressure_halo() const
+    const grid::CellHalo<dim> &pressure_halo() const
     {
       return cell_halo;
     }
@@ -90,12 +84,12 @@ namespace mitre::fluid
   private:
     void finish(grid::VectorType &dst) const;
 
-    grid::StaggeredSpace<dim>    &space;
-    const grid::PatchGrid<dim>   &patch_grid;
-    const unsigned int            n;
-    grid::VelocityHalo<dim>       velocity_halo;
-    grid::CellHalo<dim>           cell_halo;
-    mutable grid::VectorType      interface_forces;
+    grid::StaggeredSpace<dim> &space;
+    const grid::PatchGrid<dim> &patch_grid;
+    const unsigned int n;
+    grid::VelocityHalo<dim> velocity_halo;
+    grid::CellHalo<dim> cell_halo;
+    mutable grid::VectorType interface_forces;
 
     /// For each row of the interface table: the fine cell at the face, and the signed
     /// area that its pressure acts on.
@@ -103,9 +97,9 @@ namespace mitre::fluid
     /// The same for the coarse faces of interfaces: face, cell, signed area.
     struct CoarseFace
     {
-      std::size_t  dof;
+      std::size_t dof;
       unsigned int cell;
-      double       area;
+      double area;
     };
     std::vector<CoarseFace> coarse_faces;
   };

@@ -2,25 +2,24 @@
 #define mitre_fluid_stokes_solver_h
 
 #include <deal.II/base/parameter_handler.h>
-
 #include <deal.II/lac/la_parallel_block_vector.h>
+
+#include <memory>
 
 #include <mitre/fluid/pressure_multigrid.h>
 #include <mitre/fluid/stokes_operators.h>
-
-#include <memory>
 
 namespace mitre::fluid
 {
   struct StokesSolverParameters
   {
-    double       relative_tolerance = 1e-6;
+    double relative_tolerance       = 1e-6;
     unsigned int maximum_iterations = 100;
     unsigned int smoothing_steps    = 2;
     unsigned int pressure_cycles    = 1;
 
     static void declare_parameters(dealii::ParameterHandler &prm);
-    void        parse_parameters(dealii::ParameterHandler &prm);
+    void parse_parameters(dealii::ParameterHandler &prm);
   };
 
 
@@ -40,10 +39,10 @@ namespace mitre::fluid
   public:
     using BlockVector = dealii::LinearAlgebra::distributed::BlockVector<double>;
 
-    StokesSolver(const StokesOperators<dim>   &operators,
+    StokesSolver(const StokesOperators<dim> &operators,
                  const StokesSolverParameters &parameters,
-                 const double                  density,
-                 const double                  viscosity);
+                 const double density,
+                 const double viscosity);
 
     /// To be called before solve() whenever the time step [s] changes.
     void set_time_step(const double dt);
@@ -58,7 +57,7 @@ namespace mitre::fluid
     unsigned int solve(grid::VectorType &u,
                        grid::VectorType &p,
                        grid::VectorType &momentum_residual,
-                       const double      reference);
+                       const double reference);
 
     /**
      * Makes @p u divergence-free: u - grad phi with div grad phi = div u. Returns the
@@ -67,14 +66,12 @@ namespace mitre::fluid
     unsigned int project(grid::VectorType &u, const double tolerance);
 
     /// Norm of the residual after the last solve(), relative to its reference.
-    double
-    last_relative_residual() const
+    double last_relative_residual() const
     {
       return relative_residual;
     }
 
-    const PressureMultigrid<dim> &
-    pressure_multigrid() const
+    const PressureMultigrid<dim> &pressure_multigrid() const
     {
       return multigrid;
     }
@@ -86,24 +83,24 @@ namespace mitre::fluid
     void solve_velocity(grid::VectorType &u, const grid::VectorType &r) const;
     void solve_pressure(grid::VectorType &phi, const grid::VectorType &g);
 
-    const StokesOperators<dim>  &operators;
+    const StokesOperators<dim> &operators;
     const StokesSolverParameters parameters;
-    const double                 density, viscosity;
-    double                       dt = 0.;
-    PressureMultigrid<dim>       multigrid;
-    double                       relative_residual = 0.;
+    const double density, viscosity;
+    double dt = 0.;
+    PressureMultigrid<dim> multigrid;
+    double relative_residual = 0.;
 
     /// Weight of the divergence in the residual, so that both parts have one unit.
     double divergence_scale = 1.;
     double smallest_h       = 1.;
 
-    unsigned int        velocity_degree = 1;
-    double              velocity_theta = 1., velocity_delta = 0.;
+    unsigned int velocity_degree = 1;
+    double velocity_theta = 1., velocity_delta = 0.;
     std::vector<double> velocity_diagonal; // one a patch
 
     mutable grid::VectorType velocity_update, velocity_product;
-    grid::VectorType         pressure_rhs, pressure_correction, pressure_product;
-    BlockVector              correction, residual;
+    grid::VectorType pressure_rhs, pressure_correction, pressure_product;
+    BlockVector correction, residual;
   };
 } // namespace mitre::fluid
 

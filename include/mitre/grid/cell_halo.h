@@ -3,10 +3,10 @@
 
 #include <deal.II/lac/la_parallel_vector.h>
 
-#include <mitre/grid/staggered_space.h>
-
 #include <memory>
 #include <vector>
+
+#include <mitre/grid/staggered_space.h>
 
 namespace mitre::grid
 {
@@ -28,27 +28,23 @@ namespace mitre::grid
 
     CellHalo(const PatchGrid<dim> &grid, const unsigned int cells_per_side);
 
-    unsigned int
-    n_cells_per_side() const
+    unsigned int n_cells_per_side() const
     {
       return m;
     }
 
-    unsigned int
-    n_cells_per_patch() const
+    unsigned int n_cells_per_patch() const
     {
       return cells_per_patch;
     }
 
-    void
-    initialize_vector(Vector &vector) const
+    void initialize_vector(Vector &vector) const
     {
       vector.reinit(partitioner);
     }
 
     /// Number of entries of a padded array, (m+2)^dim.
-    std::size_t
-    padded_size() const
+    std::size_t padded_size() const
     {
       return dealii::Utilities::fixed_power<dim>(m + 2);
     }
@@ -59,8 +55,7 @@ namespace mitre::grid
      */
     void gather(const Vector &v, const unsigned int p, Number *padded) const;
 
-    const PatchGrid<dim> &
-    grid() const
+    const PatchGrid<dim> &grid() const
     {
       return patch_grid;
     }
@@ -69,15 +64,15 @@ namespace mitre::grid
 
   private:
     const PatchGrid<dim> &patch_grid;
-    const unsigned int    m, cells_per_patch, cells_per_plane;
+    const unsigned int m, cells_per_patch, cells_per_plane;
 
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
 
     /// Per patch and side: a patch of this rank, or the start of a list of entries.
     struct Side
     {
-      Neighbor     kind;
-      bool         whole;
+      Neighbor kind;
+      bool whole;
       unsigned int patch_or_start;
     };
     std::vector<Side> sides;

@@ -5,7 +5,6 @@
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/point.h>
 #include <deal.II/base/types.h>
-
 #include <deal.II/distributed/tria.h>
 
 #include <array>
@@ -54,13 +53,13 @@ namespace mitre::grid
   template <int dim>
   struct PatchGridParameters
   {
-    dealii::Point<dim>           lower;
-    dealii::Point<dim>           upper;
+    dealii::Point<dim> lower;
+    dealii::Point<dim> upper;
     std::array<unsigned int, dim> base_patches;
-    std::array<bool, dim>        periodic;
-    unsigned int                 cells_per_side = 8;
-    unsigned int                 minimum_level  = 0;
-    unsigned int                 maximum_level  = 0;
+    std::array<bool, dim> periodic;
+    unsigned int cells_per_side = 8;
+    unsigned int minimum_level  = 0;
+    unsigned int maximum_level  = 0;
 
     static void declare_parameters(dealii::ParameterHandler &prm);
 
@@ -82,49 +81,42 @@ namespace mitre::grid
 
     PatchGrid(MPI_Comm communicator, const PatchGridParameters<dim> &parameters);
 
-    PatchGrid(const PatchGrid &) = delete;
+    PatchGrid(const PatchGrid &)            = delete;
     PatchGrid &operator=(const PatchGrid &) = delete;
 
     /// n, the number of cells along a side of a patch.
-    unsigned int
-    n_cells_per_side() const
+    unsigned int n_cells_per_side() const
     {
       return n;
     }
 
-    unsigned int
-    n_owned_patches() const
+    unsigned int n_owned_patches() const
     {
       return owned_patches;
     }
 
     /// Owned patches and ghosts.
-    unsigned int
-    n_local_patches() const
+    unsigned int n_local_patches() const
     {
       return patches.size();
     }
 
     /// Patch @p p; those with p < n_owned_patches() belong to this rank.
-    const Patch<dim> &
-    patch(const unsigned int p) const
+    const Patch<dim> &patch(const unsigned int p) const
     {
       return patches[p];
     }
 
     /// Number of patches (or cells) of all ranks.
-    dealii::types::global_dof_index
-    n_global_patches() const
+    dealii::types::global_dof_index n_global_patches() const
     {
       return tria.n_global_active_cells();
     }
 
-    dealii::types::global_dof_index
-    n_global_cells() const;
+    dealii::types::global_dof_index n_global_cells() const;
 
     /// What lies beyond side 2 d (lower) or 2 d + 1 (upper) of an owned patch.
-    Neighbor
-    neighbor(const unsigned int p, const unsigned int side) const
+    Neighbor neighbor(const unsigned int p, const unsigned int side) const
     {
       return neighbors[p * 2 * dim + side];
     }
@@ -137,15 +129,13 @@ namespace mitre::grid
     unsigned int find(const int level, Index index) const;
 
     /// Number of patches of @p level along direction @p d.
-    int
-    n_patches(const int level, const unsigned int d) const
+    int n_patches(const int level, const unsigned int d) const
     {
       return static_cast<int>(parameters.base_patches[d]) << level;
     }
 
     /// Width of a cell of @p level in direction @p d [cm].
-    double
-    cell_width(const int level, const unsigned int d) const
+    double cell_width(const int level, const unsigned int d) const
     {
       return (parameters.upper[d] - parameters.lower[d]) /
              (static_cast<double>(n_patches(level, d)) * n);
@@ -158,42 +148,54 @@ namespace mitre::grid
      */
     unsigned int locate(const dealii::Point<dim> &x) const;
 
+    /**
+     * Coordinate @p x in direction @p d, or that of the face of the box if it lies beyond
+     * by less than a cell of the highest level: the structure may touch the box's faces,
+     * and its points there move a little.
+     */
+    double pull_into_box(const double x, const unsigned int d) const
+    {
+      const double margin = cell_width(highest_level, d);
+      if (parameters.periodic[d] ||
+          (x >= parameters.lower[d] && x <= parameters.upper[d]))
+        return x;
+      if (x < parameters.lower[d] && x > parameters.lower[d] - margin)
+        return parameters.lower[d];
+      if (x > parameters.upper[d] && x < parameters.upper[d] + margin)
+        return parameters.upper[d];
+      return x;
+    }
+
     /// Level of the leaf, owned or ghost, that holds @p x; -1 if it is not known here.
     int level_at(const dealii::Point<dim> &x) const;
 
-    const dealii::BoundingBox<dim> &
-    box() const
+    const dealii::BoundingBox<dim> &box() const
     {
       return bounding_box;
     }
 
-    const std::array<bool, dim> &
-    periodic() const
+    const std::array<bool, dim> &periodic() const
     {
       return parameters.periodic;
     }
 
-    unsigned int
-    maximum_level() const
+    unsigned int maximum_level() const
     {
       return parameters.maximum_level;
     }
 
-    unsigned int
-    minimum_level() const
+    unsigned int minimum_level() const
     {
       return parameters.minimum_level;
     }
 
     /// True if leaves of different levels meet anywhere on any rank.
-    bool
-    has_coarse_fine_interfaces() const
+    bool has_coarse_fine_interfaces() const
     {
       return mixed_levels;
     }
 
-    MPI_Comm
-    communicator() const
+    MPI_Comm communicator() const
     {
       return tria.get_communicator();
     }
@@ -205,22 +207,19 @@ namespace mitre::grid
      * @p before_change is called, after it @p after_change. Returns whether anything
      * changed.
      */
-    bool adapt(
-      const std::function<int(const dealii::BoundingBox<dim> &)> &wanted_level,
-      const std::function<void()> &before_change = {},
-      const std::function<void()> &after_change  = {});
+    bool adapt(const std::function<int(const dealii::BoundingBox<dim> &)> &wanted_level,
+               const std::function<void()> &before_change = {},
+               const std::function<void()> &after_change  = {});
 
     /// Weight of a leaf beyond its fluid cells, for the partition (1000 = one patch).
     std::function<unsigned int(const dealii::BoundingBox<dim> &)> extra_weight;
 
-    dealii::parallel::distributed::Triangulation<dim> &
-    triangulation()
+    dealii::parallel::distributed::Triangulation<dim> &triangulation()
     {
       return tria;
     }
 
-    const dealii::parallel::distributed::Triangulation<dim> &
-    triangulation() const
+    const dealii::parallel::distributed::Triangulation<dim> &triangulation() const
     {
       return tria;
     }
@@ -237,21 +236,21 @@ namespace mitre::grid
 
   private:
     Index index_of(const dealii::Point<dim> &x, const int level) const;
-    bool  wrap(const int level, Index &index) const;
+    bool wrap(const int level, Index &index) const;
 
-    const PatchGridParameters<dim>                    parameters;
-    const unsigned int                                n;
-    const dealii::BoundingBox<dim>                    bounding_box;
+    const PatchGridParameters<dim> parameters;
+    const unsigned int n;
+    const dealii::BoundingBox<dim> bounding_box;
     dealii::parallel::distributed::Triangulation<dim> tria;
 
-    unsigned int             owned_patches = 0;
-    std::vector<Patch<dim>>  patches;
-    std::vector<Neighbor>    neighbors;
-    bool                     mixed_levels = false;
-    int                      lowest_level = 0, highest_level = 0;
+    unsigned int owned_patches = 0;
+    std::vector<Patch<dim>> patches;
+    std::vector<Neighbor> neighbors;
+    bool mixed_levels = false;
+    int lowest_level = 0, highest_level = 0;
 
     /// Local patch number by level and position: dense where that is small.
-    std::vector<std::vector<int>>                              dense_lookup;
+    std::vector<std::vector<int>> dense_lookup;
     std::vector<std::unordered_map<std::uint64_t, unsigned int>> sparse_lookup;
   };
 } // namespace mitre::grid

@@ -1,11 +1,11 @@
 #ifndef mitre_grid_solution_transfer_h
 #define mitre_grid_solution_transfer_h
 
-#include <mitre/grid/cell_halo.h>
-#include <mitre/grid/velocity_halo.h>
-
 #include <memory>
 #include <vector>
+
+#include <mitre/grid/cell_halo.h>
+#include <mitre/grid/velocity_halo.h>
 
 namespace mitre::grid
 {
@@ -22,13 +22,13 @@ namespace mitre::grid
   class SolutionTransfer
   {
   public:
-    SolutionTransfer(PatchGrid<dim>                        &grid,
-                     const StaggeredSpace<dim>             &space,
-                     const CellHalo<dim>                   &cells,
+    SolutionTransfer(PatchGrid<dim> &grid,
+                     const StaggeredSpace<dim> &space,
+                     const CellHalo<dim> &cells,
                      const std::vector<const VectorType *> &velocities,
                      const std::vector<const VectorType *> &cell_values);
 
-    void finish(const StaggeredSpace<dim>       &space,
+    void finish(const StaggeredSpace<dim> &space,
                 const std::vector<VectorType *> &velocities,
                 const std::vector<VectorType *> &cell_values);
 
@@ -38,13 +38,13 @@ namespace mitre::grid
 
     std::vector<char> pack(const CellIterator &cell, const CellStatus status) const;
 
-    PatchGrid<dim>                           &grid;
-    const StaggeredSpace<dim>                &space;
-    const CellHalo<dim>                      &cells;
+    PatchGrid<dim> &grid;
+    const StaggeredSpace<dim> &space;
+    const CellHalo<dim> &cells;
     std::vector<std::unique_ptr<VelocityHalo<dim>>> velocity_halos;
-    std::vector<const VectorType *>           velocities, cell_values;
-    std::vector<VectorType>                   ghosted_cells;
-    unsigned int                              handle;
+    std::vector<const VectorType *> velocities, cell_values;
+    std::vector<VectorType> ghosted_cells;
+    unsigned int handle;
   };
 } // namespace mitre::grid
 

@@ -1,12 +1,12 @@
 #ifndef mitre_grid_staggered_space_h
 #define mitre_grid_staggered_space_h
 
-#include <mitre/grid/patch_grid.h>
-#include <mitre/grid/types.h>
-
 #include <functional>
 #include <memory>
 #include <vector>
+
+#include <mitre/grid/patch_grid.h>
+#include <mitre/grid/types.h>
 
 namespace mitre::grid
 {
@@ -35,9 +35,9 @@ namespace mitre::grid
   struct BoundaryTerm
   {
     dealii::Point<dim> x;
-    unsigned int       component;
-    unsigned int       condition;
-    double             weight;
+    unsigned int component;
+    unsigned int condition;
+    double weight;
   };
 
   /// A sum of weighted unknowns and prescribed boundary values.
@@ -45,7 +45,7 @@ namespace mitre::grid
   struct LinearCombination
   {
     std::vector<std::pair<dealii::types::global_dof_index, double>> entries;
-    std::vector<BoundaryTerm<dim>>                                  boundary;
+    std::vector<BoundaryTerm<dim>> boundary;
 
     void add(const LinearCombination &other, const double factor);
     void merge();
@@ -76,20 +76,17 @@ namespace mitre::grid
     /// Replaces global numbers by the local ones of @p partitioner.
     void localize(const dealii::Utilities::MPI::Partitioner &partitioner);
 
-    unsigned int
-    n_rows() const
+    unsigned int n_rows() const
     {
       return destinations.size();
     }
 
-    unsigned int
-    destination(const unsigned int row) const
+    unsigned int destination(const unsigned int row) const
     {
       return destinations[row];
     }
 
-    double
-    apply(const unsigned int row, const double *values) const
+    double apply(const unsigned int row, const double *values) const
     {
       double sum = 0.;
       for (unsigned int k = starts[row]; k < starts[row + 1]; ++k)
@@ -97,16 +94,14 @@ namespace mitre::grid
       return sum;
     }
 
-    void
-    apply_transpose(const unsigned int row, const double value, double *values) const
+    void apply_transpose(const unsigned int row, const double value, double *values) const
     {
       for (unsigned int k = starts[row]; k < starts[row + 1]; ++k)
         values[columns[k]] += weights[k] * value;
     }
 
     /// Sum of the prescribed part of a row, as set by set_boundary_values().
-    double
-    boundary_value(const unsigned int row) const
+    double boundary_value(const unsigned int row) const
     {
       return boundary_values.empty() ? 0. : boundary_values[row];
     }
@@ -118,14 +113,14 @@ namespace mitre::grid
     std::size_t memory_consumption() const;
 
   private:
-    std::vector<unsigned int>                    destinations;
-    std::vector<unsigned int>                    starts = {0};
+    std::vector<unsigned int> destinations;
+    std::vector<unsigned int> starts = {0};
     std::vector<dealii::types::global_dof_index> global_columns;
-    std::vector<unsigned int>                    columns;
-    std::vector<double>                          weights;
+    std::vector<unsigned int> columns;
+    std::vector<double> weights;
 
     std::vector<std::pair<unsigned int, BoundaryTerm<dim>>> boundary_terms;
-    std::vector<double>                                     boundary_values;
+    std::vector<double> boundary_values;
   };
 
 
@@ -155,42 +150,36 @@ namespace mitre::grid
 
     StaggeredSpace(const PatchGrid<dim> &grid, const BoundaryKinds<dim> &boundary_kinds);
 
-    const PatchGrid<dim> &
-    grid() const
+    const PatchGrid<dim> &grid() const
     {
       return patch_grid;
     }
 
-    unsigned int
-    n_dofs_per_patch() const
+    unsigned int n_dofs_per_patch() const
     {
       return dim * dofs_per_component;
     }
 
     /// Entries of a component on a patch: (n+1) n^(dim-1).
-    unsigned int
-    n_dofs_per_component() const
+    unsigned int n_dofs_per_component() const
     {
       return dofs_per_component;
     }
 
     /// Extent of component @p c of a patch in direction @p d: n, or n+1 if c == d.
-    unsigned int
-    extent(const unsigned int c, const unsigned int d) const
+    unsigned int extent(const unsigned int c, const unsigned int d) const
     {
       return n + (c == d ? 1 : 0);
     }
 
     /// Number of the first entry of component @p c of owned patch @p p.
-    std::size_t
-    first_dof(const unsigned int p, const unsigned int c) const
+    std::size_t first_dof(const unsigned int p, const unsigned int c) const
     {
       return static_cast<std::size_t>(p) * n_dofs_per_patch() + c * dofs_per_component;
     }
 
     /// Distance between entries of component @p c that are neighbours in direction @p d.
-    unsigned int
-    stride(const unsigned int c, const unsigned int d) const
+    unsigned int stride(const unsigned int c, const unsigned int d) const
     {
       unsigned int s = 1;
       for (unsigned int e = 0; e < d; ++e)
@@ -206,9 +195,9 @@ namespace mitre::grid
      * Position on the domain boundary where a face or ghost value of @p level is
      * judged: the point of side @p side nearest to (component, index).
      */
-    dealii::Point<dim> boundary_position(const int          level,
+    dealii::Point<dim> boundary_position(const int level,
                                          const unsigned int c,
-                                         const Index       &index,
+                                         const Index &index,
                                          const unsigned int side) const;
 
     /**
@@ -217,18 +206,17 @@ namespace mitre::grid
      * Where leaves are coarser it is interpolated from them (quadratically), unless
      * @p interpolate is false. Returns whether that was possible.
      */
-    bool combination(const int                level,
-                     const unsigned int       c,
-                     Index                    index,
-                     const BoundaryExtension  extension,
-                     const bool               interpolate,
-                     LinearCombination<dim>  &result) const;
+    bool combination(const int level,
+                     const unsigned int c,
+                     Index index,
+                     const BoundaryExtension extension,
+                     const bool interpolate,
+                     LinearCombination<dim> &result) const;
 
     /// Gives @p vector the owned entries and the ghosts that the solver needs.
     void initialize_vector(VectorType &vector) const;
 
-    const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &
-    partitioner() const
+    const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &partitioner() const
     {
       return vector_partitioner;
     }
@@ -245,39 +233,35 @@ namespace mitre::grid
     void collect(VectorType &f) const;
 
     /// Control volume of a master [cm^dim]; zero for copies.
-    const VectorType &
-    volumes() const
+    const VectorType &volumes() const
     {
       return master_volumes;
     }
 
     /// One over volumes(), and zero for copies and for faces with given velocity.
-    const VectorType &
-    inverse_volumes() const
+    const VectorType &inverse_volumes() const
     {
       return free_inverse_volumes;
     }
 
     struct BoundaryFace
     {
-      std::size_t        dof;
-      unsigned int       patch;
-      unsigned int       side;
-      unsigned int       cell; ///< cell of the patch that has the face
-      unsigned int       condition;
+      std::size_t dof;
+      unsigned int patch;
+      unsigned int side;
+      unsigned int cell; ///< cell of the patch that has the face
+      unsigned int condition;
       dealii::Point<dim> x;
     };
 
     /// Faces on the domain boundary whose normal velocity is given (masters).
-    const std::vector<BoundaryFace> &
-    fixed_faces() const
+    const std::vector<BoundaryFace> &fixed_faces() const
     {
       return fixed;
     }
 
     /// Faces on the domain boundary with given traction.
-    const std::vector<BoundaryFace> &
-    open_faces() const
+    const std::vector<BoundaryFace> &open_faces() const
     {
       return open;
     }
@@ -286,15 +270,13 @@ namespace mitre::grid
     void zero_fixed_faces(VectorType &u) const;
 
     /// Fine faces on coarse-fine interfaces and what they follow from.
-    const CombinationTable<dim> &
-    coarse_fine_faces() const
+    const CombinationTable<dim> &coarse_fine_faces() const
     {
       return interface_faces;
     }
 
     /// Coarse faces on coarse-fine interfaces: patch and side.
-    const std::vector<std::pair<unsigned int, unsigned int>> &
-    coarse_sides() const
+    const std::vector<std::pair<unsigned int, unsigned int>> &coarse_sides() const
     {
       return coarse_interface_sides;
     }
@@ -309,12 +291,12 @@ namespace mitre::grid
     dealii::types::global_dof_index
     find_entry(const int level, const unsigned int c, const Index &index) const;
 
-    bool interpolate_from_coarser(const int               level,
-                                  const unsigned int      c,
-                                  const Index            &index,
+    bool interpolate_from_coarser(const int level,
+                                  const unsigned int c,
+                                  const Index &index,
                                   const BoundaryExtension extension,
-                                  const unsigned int      d,
-                                  Index                  &coarse,
+                                  const unsigned int d,
+                                  Index &coarse,
                                   LinearCombination<dim> &result) const;
 
     void build_copies();
@@ -323,29 +305,29 @@ namespace mitre::grid
     void copy_from_masters(VectorType &u) const;
     void follow_interfaces(VectorType &u) const;
 
-    const PatchGrid<dim>    &patch_grid;
+    const PatchGrid<dim> &patch_grid;
     const BoundaryKinds<dim> kinds;
-    const unsigned int       n;
-    const unsigned int       dofs_per_component;
+    const unsigned int n;
+    const unsigned int dofs_per_component;
 
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> vector_partitioner;
 
     /// Upper planes whose master is the lower plane of a patch of this rank.
     struct PlaneCopy
     {
-      std::size_t  copy, master;
+      std::size_t copy, master;
       unsigned int c;
     };
     std::vector<PlaneCopy> plane_copies;
 
     /// The same where the master belongs to another rank.
     std::vector<std::pair<std::size_t, dealii::types::global_dof_index>> remote_copies;
-    std::vector<unsigned int>                                            remote_masters;
+    std::vector<unsigned int> remote_masters;
 
-    CombinationTable<dim>                              interface_faces;
+    CombinationTable<dim> interface_faces;
     std::vector<std::pair<unsigned int, unsigned int>> coarse_interface_sides;
-    std::vector<BoundaryFace>                          fixed, open;
-    VectorType                                         master_volumes, free_inverse_volumes;
+    std::vector<BoundaryFace> fixed, open;
+    VectorType master_volumes, free_inverse_volumes;
   };
 } // namespace mitre::grid
 

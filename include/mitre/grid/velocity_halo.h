@@ -1,10 +1,10 @@
 #ifndef mitre_grid_velocity_halo_h
 #define mitre_grid_velocity_halo_h
 
-#include <mitre/grid/staggered_space.h>
-
 #include <memory>
 #include <vector>
+
+#include <mitre/grid/staggered_space.h>
 
 namespace mitre::grid
 {
@@ -41,18 +41,16 @@ namespace mitre::grid
      * solver's vectors have anyhow and localize().
      */
     VelocityHalo(const StaggeredSpace<dim> &space,
-                 const unsigned int         width,
-                 const HaloShape            shape,
-                 const BoundaryExtension    extension);
+                 const unsigned int width,
+                 const HaloShape shape,
+                 const BoundaryExtension extension);
 
-    unsigned int
-    width() const
+    unsigned int width() const
     {
       return g;
     }
 
-    HaloShape
-    shape() const
+    HaloShape shape() const
     {
       return halo_shape;
     }
@@ -67,18 +65,18 @@ namespace mitre::grid
     void add_ghosts(std::vector<dealii::types::global_dof_index> &ghosts) const;
 
     /// Uses vectors with this partitioner from now on.
-    void
-    localize(const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &partitioner);
+    void localize(
+      const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &partitioner);
 
     /// Makes a partitioner of its own, for import() and scattering.
     void make_own_partitioner();
 
-    /// The vector with this halo's ghost values. Needs make_own_partitioner(). Collective.
+    /// The vector with this halo's ghost values. Needs make_own_partitioner().
+    /// Collective.
     const VectorType &import(const VectorType &u);
 
     /// What import() returned last.
-    const VectorType &
-    last_import() const
+    const VectorType &last_import() const
     {
       return imported;
     }
@@ -88,12 +86,11 @@ namespace mitre::grid
       const std::function<double(const BoundaryTerm<dim> &)> &prescribed);
 
     /// Fills the padded array of component @p c of owned patch @p p.
-    void
-    gather(const VectorType  &u,
-           const unsigned int p,
-           const unsigned int c,
-           double            *padded,
-           const bool         with_boundary_values = false) const;
+    void gather(const VectorType &u,
+                const unsigned int p,
+                const unsigned int c,
+                double *padded,
+                const bool with_boundary_values = false) const;
 
     /// Prepares scattering: an accumulator of zeros.
     void begin_scatter();
@@ -115,14 +112,14 @@ namespace mitre::grid
     void build();
 
     const StaggeredSpace<dim> &space;
-    const unsigned int         n, g;
-    const HaloShape            halo_shape;
-    const BoundaryExtension    extension;
+    const unsigned int n, g;
+    const HaloShape halo_shape;
+    const BoundaryExtension extension;
 
     /// Boxes of entries that are copied from a patch of this rank.
     struct Block
     {
-      unsigned int       patch;
+      unsigned int patch;
       unsigned short int direction; ///< number of the offset, base 3
     };
 
@@ -130,27 +127,27 @@ namespace mitre::grid
     struct BlockShape
     {
       std::array<unsigned int, 3> size;
-      std::size_t                 from, to;
+      std::size_t from, to;
     };
     std::vector<std::array<BlockShape, dim>> shapes;
-    void copy_block(const BlockShape  &shape,
+    void copy_block(const BlockShape &shape,
                     const unsigned int c,
-                    const double      *from,
-                    double            *padded) const;
+                    const double *from,
+                    double *padded) const;
 
     std::vector<unsigned int> block_starts;
-    std::vector<Block>        blocks;
+    std::vector<Block> blocks;
 
     /// Per patch and component: entries copied from ghosts, and rows of the table.
-    std::vector<std::size_t>                     single_starts;
-    std::vector<unsigned int>                    single_to;
+    std::vector<std::size_t> single_starts;
+    std::vector<unsigned int> single_to;
     std::vector<dealii::types::global_dof_index> single_from_global;
-    std::vector<unsigned int>                    single_from;
-    std::vector<unsigned int>                    row_starts;
-    CombinationTable<dim>                        rows;
+    std::vector<unsigned int> single_from;
+    std::vector<unsigned int> row_starts;
+    CombinationTable<dim> rows;
 
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
-    VectorType                                                 imported, accumulator;
+    VectorType imported, accumulator;
   };
 } // namespace mitre::grid
 

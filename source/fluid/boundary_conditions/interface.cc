@@ -1,9 +1,9 @@
+#include <sstream>
+
 #include <mitre/base/exceptions.h>
 #include <mitre/base/expression.h>
 #include <mitre/base/parameters.h>
 #include <mitre/fluid/boundary_conditions/interface.h>
-
-#include <sstream>
 
 namespace mitre::fluid
 {
@@ -14,8 +14,7 @@ namespace mitre::fluid
     const std::array<std::string, 6> side_names = {
       {"x min", "x max", "y min", "y max", "z min", "z max"}};
 
-    std::string
-    section_name(const std::string &name)
+    std::string section_name(const std::string &name)
     {
       return "Condition " + name;
     }
@@ -23,29 +22,29 @@ namespace mitre::fluid
 
 
   template <int dim>
-  void
-  BoundaryConditions<dim>::declare_parameters(ParameterHandler &prm)
+  void BoundaryConditions<dim>::declare_parameters(ParameterHandler &prm)
   {
-    const auto names =
-      base::declare_names(prm,
-                          "Conditions",
-                          "",
-                          "Names of the boundary conditions; each has a subsection "
-                          "\"Condition NAME\". Where several match, the first holds. Faces "
-                          "of periodic directions need none.");
+    const auto names = base::declare_names(
+      prm,
+      "Conditions",
+      "",
+      "Names of the boundary conditions; each has a subsection "
+      "\"Condition NAME\". Where several match, the first holds. Faces "
+      "of periodic directions need none.");
     for (const std::string &name : names)
       {
         prm.enter_subsection(section_name(name));
-        prm.declare_entry("Faces",
-                          "",
-                          Patterns::List(Patterns::Selection(
-                            "x min|x max|y min|y max|z min|z max|all")),
-                          "The faces of the box that the condition is for.");
-        prm.declare_entry("Region",
-                          "1",
-                          Patterns::Anything(),
-                          "An expression of x, y, z [cm]: the condition holds where it is "
-                          "true (not zero).");
+        prm.declare_entry(
+          "Faces",
+          "",
+          Patterns::List(Patterns::Selection("x min|x max|y min|y max|z min|z max|all")),
+          "The faces of the box that the condition is for.");
+        prm.declare_entry(
+          "Region",
+          "1",
+          Patterns::Anything(),
+          "An expression of x, y, z [cm]: the condition holds where it is "
+          "true (not zero).");
         const std::string type =
           base::declare_choice(prm,
                                "Type",
@@ -59,10 +58,8 @@ namespace mitre::fluid
   }
 
 
-
   template <int dim>
-  void
-  BoundaryConditions<dim>::parse_parameters(ParameterHandler &prm)
+  void BoundaryConditions<dim>::parse_parameters(ParameterHandler &prm)
   {
     entries.clear();
     for (const std::string &name : base::parse_names(prm.get("Conditions")))
@@ -81,8 +78,9 @@ namespace mitre::fluid
                   known             = true;
                 }
             if (!known)
-              throw base::UserError("Boundary condition \"" + name + "\" names the face \"" +
-                                    face + "\", which a run in " + std::to_string(dim) +
+              throw base::UserError("Boundary condition \"" + name +
+                                    "\" names the face \"" + face +
+                                    "\", which a run in " + std::to_string(dim) +
                                     " dimensions does not have.");
           }
         const std::string region = prm.get("Region");
@@ -92,7 +90,9 @@ namespace mitre::fluid
           {
             const base::Expression<dim> expression(
               region, "Boundary conditions / " + name + " / Region");
-            entry.region = [expression](const Point<dim> &x) { return expression.holds(x); };
+            entry.region = [expression](const Point<dim> &x) {
+              return expression.holds(x);
+            };
           }
         std::shared_ptr<BoundaryCondition<dim>> condition =
           boundary_condition_registry<dim>().create(prm.get("Type"));
@@ -104,11 +104,10 @@ namespace mitre::fluid
   }
 
 
-
   template <int dim>
   void
-  BoundaryConditions<dim>::add(const std::string                            &name,
-                               const std::vector<unsigned int>              &sides,
+  BoundaryConditions<dim>::add(const std::string &name,
+                               const std::vector<unsigned int> &sides,
                                std::shared_ptr<const BoundaryCondition<dim>> condition)
   {
     Entry entry;
@@ -122,33 +121,30 @@ namespace mitre::fluid
   }
 
 
-
   template <int dim>
-  grid::BoundaryInfo
-  BoundaryConditions<dim>::info(const unsigned int side, const Point<dim> &x) const
+  grid::BoundaryInfo BoundaryConditions<dim>::info(const unsigned int side,
+                                                   const Point<dim> &x) const
   {
     for (unsigned int i = 0; i < entries.size(); ++i)
       if (entries[i].sides[side] && entries[i].region(x))
         return {entries[i].condition->kind(), i};
     std::ostringstream message;
-    message << "No boundary condition is given on face \"" << side_names[side] << "\" at ("
-            << x << ") cm. Add one to \"Boundary conditions / Conditions\", or make its "
+    message << "No boundary condition is given on face \"" << side_names[side]
+            << "\" at (" << x
+            << ") cm. Add one to \"Boundary conditions / Conditions\", or make its "
             << "direction periodic.";
     throw base::UserError(message.str());
   }
 
 
-
   template <int dim>
-  bool
-  BoundaryConditions<dim>::all_velocities_zero() const
+  bool BoundaryConditions<dim>::all_velocities_zero() const
   {
     for (const Entry &entry : entries)
       if (!entry.condition->velocity_is_zero())
         return false;
     return true;
   }
-
 
 
   template class BoundaryConditions<2>;

@@ -7,15 +7,15 @@ namespace mitre::fluid
   using namespace dealii;
 
   template <int dim>
-  void
-  PressureCondition<dim>::declare_parameters(ParameterHandler &prm)
+  void PressureCondition<dim>::declare_parameters(ParameterHandler &prm)
   {
-    prm.declare_entry("Pressure",
-                      "0",
-                      Patterns::Anything(),
-                      "Pressure [dyn/cm^2], an expression of x, y, z [cm] and t [s]; the "
-                      "constant mmHg converts: 10*mmHg. Added to the table's, if there is "
-                      "one.");
+    prm.declare_entry(
+      "Pressure",
+      "0",
+      Patterns::Anything(),
+      "Pressure [dyn/cm^2], an expression of x, y, z [cm] and t [s]; the "
+      "constant mmHg converts: 10*mmHg. Added to the table's, if there is "
+      "one.");
     prm.declare_entry("Table file",
                       "",
                       base::InputFile(),
@@ -25,18 +25,18 @@ namespace mitre::fluid
                       "",
                       Patterns::Anything(),
                       "Name of the table's column (without its unit).");
-    prm.declare_entry("Table extension",
-                      "periodic",
-                      Patterns::Selection("periodic|clamped"),
-                      "What holds after the end of the table: it repeats, or its last value "
-                      "stays.");
+    prm.declare_entry(
+      "Table extension",
+      "periodic",
+      Patterns::Selection("periodic|clamped"),
+      "What holds after the end of the table: it repeats, or its last value "
+      "stays.");
   }
 
 
-
   template <int dim>
-  void
-  PressureCondition<dim>::parse_parameters(ParameterHandler &prm, const std::string &name)
+  void PressureCondition<dim>::parse_parameters(ParameterHandler &prm,
+                                                const std::string &name)
   {
     expression = base::Expression<dim>(prm.get("Pressure"),
                                        "Boundary conditions / " + name + " / Pressure");
@@ -44,10 +44,10 @@ namespace mitre::fluid
     const std::string file = prm.get("Table file");
     if (!file.empty())
       {
-        table = std::make_shared<base::TimeTable>(file,
-                                                  prm.get("Table extension") == "periodic" ?
-                                                    base::TimeTable::Extension::periodic :
-                                                    base::TimeTable::Extension::clamped);
+        table = std::make_shared<base::TimeTable>(
+          file,
+          prm.get("Table extension") == "periodic" ? base::TimeTable::Extension::periodic
+                                                   : base::TimeTable::Extension::clamped);
         if (prm.get("Table column").empty())
           throw base::UserError("Boundary condition \"" + name +
                                 "\" names a \"Table file\", but no \"Table column\".");
@@ -56,14 +56,11 @@ namespace mitre::fluid
   }
 
 
-
   template <int dim>
-  double
-  PressureCondition<dim>::pressure(const Point<dim> &x, const double t) const
+  double PressureCondition<dim>::pressure(const Point<dim> &x, const double t) const
   {
     return expression.value(x, t) + (table ? table->value(column, t) : 0.);
   }
-
 
 
   template class PressureCondition<2>;

@@ -12,8 +12,7 @@ namespace mitre::fluid
 
 
   template <int dim>
-  void
-  VelocityCondition<dim>::declare_parameters(ParameterHandler &prm)
+  void VelocityCondition<dim>::declare_parameters(ParameterHandler &prm)
   {
     for (unsigned int c = 0; c < dim; ++c)
       prm.declare_entry(component_names[c],
@@ -24,17 +23,16 @@ namespace mitre::fluid
   }
 
 
-
   template <int dim>
-  void
-  VelocityCondition<dim>::parse_parameters(ParameterHandler &prm, const std::string &name)
+  void VelocityCondition<dim>::parse_parameters(ParameterHandler &prm,
+                                                const std::string &name)
   {
     components.clear();
     for (unsigned int c = 0; c < dim; ++c)
       components.emplace_back(prm.get(component_names[c]),
-                              "Boundary conditions / " + name + " / " + component_names[c]);
+                              "Boundary conditions / " + name + " / " +
+                                component_names[c]);
   }
-
 
 
   template class VelocityCondition<2>;

@@ -5,12 +5,12 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
-#include <mitre/base/plugin_registry.h>
-#include <mitre/grid/staggered_space.h>
-
 #include <memory>
 #include <string>
 #include <vector>
+
+#include <mitre/base/plugin_registry.h>
+#include <mitre/grid/staggered_space.h>
 
 namespace mitre::fluid
 {
@@ -25,8 +25,8 @@ namespace mitre::fluid
 
     /// Reads the parameters of the subsection that has been entered; @p name is the
     /// condition's name in messages.
-    virtual void
-    parse_parameters(dealii::ParameterHandler &prm, const std::string &name) = 0;
+    virtual void parse_parameters(dealii::ParameterHandler &prm,
+                                  const std::string &name) = 0;
 
     virtual grid::BoundaryKind kind() const = 0;
 
@@ -38,15 +38,13 @@ namespace mitre::fluid
     }
 
     /// True if velocity() is zero everywhere, always.
-    virtual bool
-    velocity_is_zero() const
+    virtual bool velocity_is_zero() const
     {
       return true;
     }
 
     /// The prescribed pressure (minus the normal traction) [dyn/cm^2].
-    virtual double
-    pressure(const dealii::Point<dim> &, const double) const
+    virtual double pressure(const dealii::Point<dim> &, const double) const
     {
       return 0.;
     }
@@ -67,38 +65,34 @@ namespace mitre::fluid
   {
   public:
     static void declare_parameters(dealii::ParameterHandler &prm);
-    void        parse_parameters(dealii::ParameterHandler &prm);
+    void parse_parameters(dealii::ParameterHandler &prm);
 
     /// Adds a condition that holds on all of the given sides (for tests and programs).
-    void add(const std::string                              &name,
-             const std::vector<unsigned int>                &sides,
-             std::shared_ptr<const BoundaryCondition<dim>>   condition);
+    void add(const std::string &name,
+             const std::vector<unsigned int> &sides,
+             std::shared_ptr<const BoundaryCondition<dim>> condition);
 
     /// The condition at a point; base::UserError that names face and place if none is.
     grid::BoundaryInfo info(const unsigned int side, const dealii::Point<dim> &x) const;
 
-    grid::BoundaryKinds<dim>
-    kinds() const
+    grid::BoundaryKinds<dim> kinds() const
     {
       return [this](const unsigned int side, const dealii::Point<dim> &x) {
         return info(side, x);
       };
     }
 
-    const BoundaryCondition<dim> &
-    condition(const unsigned int number) const
+    const BoundaryCondition<dim> &condition(const unsigned int number) const
     {
       return *entries[number].condition;
     }
 
-    const std::string &
-    name(const unsigned int number) const
+    const std::string &name(const unsigned int number) const
     {
       return entries[number].name;
     }
 
-    unsigned int
-    size() const
+    unsigned int size() const
     {
       return entries.size();
     }
@@ -109,10 +103,10 @@ namespace mitre::fluid
   private:
     struct Entry
     {
-      std::string                                               name;
-      std::array<bool, 2 * dim>                                 sides;
-      std::function<bool(const dealii::Point<dim> &)>           region;
-      std::shared_ptr<const BoundaryCondition<dim>>             condition;
+      std::string name;
+      std::array<bool, 2 * dim> sides;
+      std::function<bool(const dealii::Point<dim> &)> region;
+      std::shared_ptr<const BoundaryCondition<dim>> condition;
     };
     std::vector<Entry> entries;
   };

@@ -18,10 +18,10 @@ namespace mitre::fluid
   {
   public:
     static void declare_parameters(dealii::ParameterHandler &prm);
-    void parse_parameters(dealii::ParameterHandler &prm, const std::string &name) override;
+    void parse_parameters(dealii::ParameterHandler &prm,
+                          const std::string &name) override;
 
-    grid::BoundaryKind
-    kind() const override
+    grid::BoundaryKind kind() const override
     {
       return grid::BoundaryKind::traction;
     }
@@ -29,9 +29,9 @@ namespace mitre::fluid
     double pressure(const dealii::Point<dim> &x, const double t) const override;
 
   private:
-    base::Expression<dim>            expression;
+    base::Expression<dim> expression;
     std::shared_ptr<base::TimeTable> table;
-    unsigned int                     column = 0;
+    unsigned int column = 0;
   };
 } // namespace mitre::fluid
 

@@ -12,22 +12,22 @@ namespace mitre::fluid
   {
   public:
     static void declare_parameters(dealii::ParameterHandler &prm);
-    void parse_parameters(dealii::ParameterHandler &prm, const std::string &name) override;
+    void parse_parameters(dealii::ParameterHandler &prm,
+                          const std::string &name) override;
 
-    grid::BoundaryKind
-    kind() const override
+    grid::BoundaryKind kind() const override
     {
       return grid::BoundaryKind::velocity;
     }
 
-    double
-    velocity(const dealii::Point<dim> &x, const unsigned int c, const double t) const override
+    double velocity(const dealii::Point<dim> &x,
+                    const unsigned int c,
+                    const double t) const override
     {
       return components[c].value(x, t);
     }
 
-    bool
-    velocity_is_zero() const override
+    bool velocity_is_zero() const override
     {
       return false;
     }

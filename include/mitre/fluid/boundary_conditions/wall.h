@@ -10,16 +10,15 @@ namespace mitre::fluid
   class WallCondition : public BoundaryCondition<dim>
   {
   public:
-    static void
-    declare_parameters(dealii::ParameterHandler &)
-    {}
+    static void declare_parameters(dealii::ParameterHandler &)
+    {
+    }
 
-    void
-    parse_parameters(dealii::ParameterHandler &, const std::string &) override
-    {}
+    void parse_parameters(dealii::ParameterHandler &, const std::string &) override
+    {
+    }
 
-    grid::BoundaryKind
-    kind() const override
+    grid::BoundaryKind kind() const override
     {
       return grid::BoundaryKind::velocity;
     }
@@ -31,16 +30,15 @@ namespace mitre::fluid
   class SlipCondition : public BoundaryCondition<dim>
   {
   public:
-    static void
-    declare_parameters(dealii::ParameterHandler &)
-    {}
+    static void declare_parameters(dealii::ParameterHandler &)
+    {
+    }
 
-    void
-    parse_parameters(dealii::ParameterHandler &, const std::string &) override
-    {}
+    void parse_parameters(dealii::ParameterHandler &, const std::string &) override
+    {
+    }
 
-    grid::BoundaryKind
-    kind() const override
+    grid::BoundaryKind kind() const override
     {
       return grid::BoundaryKind::slip;
     }

@@ -1,0 +1,126 @@
+#ifndef mitre_simulation_simulation_h
+#define mitre_simulation_simulation_h
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <functional>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <mitre/coupling/fe_coupling.h>
+#include <mitre/coupling/refinement.h>
+#include <mitre/fluid/navier_stokes.h>
+#include <mitre/instruments/instruments.h>
+#include <mitre/io/output.h>
+#include <mitre/io/statistics_file.h>
+#include <mitre/simulation/refinement.h>
+#include <mitre/structure/body.h>
+
+namespace mitre::simulation
+{
+  /**
+   * A run: an immersed structure of any number of parts in a fluid, from a parameter file
+   * to the last time step.
+   *
+   * One step is the midpoint scheme (2.14)-(2.19) of the thesis: parts are moved to the
+   * middle of the step with the velocity at its beginning, their forces there are spread
+   * to the fluid, the fluid is advanced, and the parts are moved over the whole step with
+   * the mean of the old and the new velocity, interpolated at the middle positions. The
+   * first step is (2.20)-(2.24).
+   */
+  template <int dim>
+  class Simulation
+  {
+  public:
+    static void declare_parameters(dealii::ParameterHandler &prm);
+
+    /**
+     * Reads the parameters and the meshes and builds the grid; nothing is written yet.
+     * Throws base::UserError for anything that cannot work.
+     */
+    Simulation(dealii::ParameterHandler &prm,
+               const std::string &parameter_file,
+               const MPI_Comm communicator);
+
+    /// What the run will consist of: parts, materials, sizes, levels, steps.
+    void print_summary(std::ostream &out) const;
+
+    /// Runs from the start to the end time.
+    void run();
+
+    /// One time step, without any output.
+    void advance();
+
+    double time() const
+    {
+      return current_time;
+    }
+
+    const fluid::NavierStokes<dim> &flow() const
+    {
+      return *fluid;
+    }
+
+  private:
+    struct Part
+    {
+      std::unique_ptr<structure::Body<dim>> body;
+      coupling::CouplingParameters coupling_parameters;
+
+      /// Positions at the beginning and in the middle of the step [cm], velocity [cm/s]
+      /// and force density [dyn/cm^dim].
+      structure::VectorType X, X_half, U, F;
+    };
+
+    void read_parts(dealii::ParameterHandler &prm);
+    std::function<int(const dealii::BoundingBox<dim> &)> wanted_levels();
+    bool regrid();
+    void distribute_parts();
+    void setup_coupling();
+    double largest_displacement_since_regrid() const;
+    void spread_forces(const bool middle, const double t);
+    void measure(const unsigned int iterations, const double wall_time);
+    void write_fields();
+    std::vector<std::string> statistics_columns() const;
+    instruments::Observation<dim> observation() const;
+
+    const MPI_Comm communicator;
+    const bool root;
+    const std::string parameter_file;
+
+    std::string output_folder;
+    double start_time = 0., end_time, time_step, output_interval;
+    unsigned int statistics_interval;
+    double maximum_courant_number;
+
+    fluid::FluidParameters fluid_parameters;
+    fluid::BoundaryConditions<dim> boundary_conditions;
+    std::vector<base::Expression<dim>> initial_velocity;
+
+    std::unique_ptr<grid::PatchGrid<dim>> patch_grid;
+    Refinement<dim> refinement;
+    std::vector<Part> parts;
+    std::unique_ptr<fluid::NavierStokes<dim>> fluid;
+    std::unique_ptr<coupling::FECoupling<dim>> fe_coupling;
+    std::unique_ptr<grid::VelocityHalo<dim>> kernel_halo;
+    std::shared_ptr<coupling::RefinementMap<dim>> refinement_map;
+    instruments::Instruments<dim> instruments;
+    std::unique_ptr<io::OutputWriter<dim>> output;
+    std::unique_ptr<io::StatisticsFile> statistics;
+
+    double current_time          = 0.;
+    unsigned int step_number     = 0;
+    unsigned int last_iterations = 0;
+    unsigned int n_regrids       = 0;
+    double courant_number        = 0.;
+    grid::VectorType grid_force, middle_velocity;
+
+    /// Node positions of each part when the grid was last built, in the order of its
+    /// mesh.
+    std::vector<std::vector<double>> positions_at_regrid;
+  };
+} // namespace mitre::simulation
+
+#endif

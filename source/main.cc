@@ -1,0 +1,145 @@
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/parameter_handler.h>
+
+#include <chrono>
+#include <iostream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <mitre/base/exceptions.h>
+#include <mitre/base/parameters.h>
+#include <mitre/simulation/simulation.h>
+
+namespace
+{
+  using namespace mitre;
+
+  const char *const usage =
+    "usage: mitre [OPTION] RUN.prm\n"
+    "\n"
+    "Runs the fluid-structure simulation that the parameter file RUN.prm describes; in\n"
+    "parallel as: mpirun -np N mitre RUN.prm\n"
+    "\n"
+    "  --validate           check the file and everything it names, say what was\n"
+    "                       understood, and stop before the first time step\n"
+    "  --print-parameters   print all parameters with their defaults and explanations; "
+    "if\n"
+    "                       RUN.prm is given, those of its parts and conditions as well\n"
+    "  --help               print this\n";
+
+  enum class Mode
+  {
+    run,
+    validate,
+    print_parameters
+  };
+
+  unsigned int declare(dealii::ParameterHandler &prm)
+  {
+    const std::string dimension = base::declare_choice(
+      prm, "Dimension", "3", {"2", "3"}, "Number of space dimensions of the run.");
+    if (dimension == "2")
+      simulation::Simulation<2>::declare_parameters(prm);
+    else
+      simulation::Simulation<3>::declare_parameters(prm);
+    return dimension == "2" ? 2 : 3;
+  }
+
+  template <int dim>
+  void execute(dealii::ParameterHandler &prm, const std::string &file, const Mode mode)
+  {
+    simulation::Simulation<dim> simulation(prm, file, MPI_COMM_WORLD);
+    const bool root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+    if (root)
+      simulation.print_summary(std::cout);
+    if (mode == Mode::validate)
+      {
+        if (root)
+          std::cout << file << " is valid." << std::endl;
+      }
+    else
+      simulation.run();
+  }
+
+  int run_program(const int argc, char **argv)
+  {
+    const bool root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+    Mode mode       = Mode::run;
+    std::string file;
+    for (int i = 1; i < argc; ++i)
+      {
+        const std::string argument = argv[i];
+        if (argument == "--validate")
+          mode = Mode::validate;
+        else if (argument == "--print-parameters")
+          mode = Mode::print_parameters;
+        else if (argument == "--help" || argument == "-h")
+          {
+            if (root)
+              std::cout << usage;
+            return 0;
+          }
+        else if (argument.empty() || argument[0] == '-' || !file.empty())
+          throw base::UserError("Argument \"" + argument + "\" is not understood.\n\n" +
+                                usage);
+        else
+          file = argument;
+      }
+
+    dealii::ParameterHandler prm;
+    if (mode == Mode::print_parameters)
+      {
+        if (file.empty())
+          declare(prm);
+        else
+          base::parse_parameter_file(
+            prm, file, [](dealii::ParameterHandler &p) { declare(p); });
+        if (root)
+          prm.print_parameters(std::cout, dealii::ParameterHandler::PRM);
+        return 0;
+      }
+    if (file.empty())
+      throw base::UserError(std::string("No parameter file is given.\n\n") + usage);
+
+    base::parse_parameter_file(
+      prm, file, [](dealii::ParameterHandler &p) { declare(p); });
+    if (prm.get("Dimension") == "2")
+      execute<2>(prm, file, mode);
+    else
+      execute<3>(prm, file, mode);
+    return 0;
+  }
+} // namespace
+
+
+int
+main(int argc, char **argv)
+{
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const unsigned int rank  = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+  const unsigned int ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  std::string message;
+  try
+    {
+      return run_program(argc, argv);
+    }
+  catch (const std::exception &error)
+    {
+      message = error.what();
+    }
+  catch (...)
+    {
+      message = "Unknown error.";
+    }
+
+  // Usually all ranks fail alike; the first then speaks for all. If only another one
+  // does, it speaks when the first has had its time.
+  if (rank != 0)
+    std::this_thread::sleep_for(std::chrono::seconds(2));
+  std::cout.flush();
+  std::cerr << "\nmitre: " << message << std::endl;
+  if (ranks > 1)
+    MPI_Abort(MPI_COMM_WORLD, 1);
+  return 1;
+}

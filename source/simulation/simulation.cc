@@ -1,0 +1,548 @@
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <sstream>
+
+#include <mitre/base/exceptions.h>
+#include <mitre/base/parameters.h>
+#include <mitre/base/progress.h>
+#include <mitre/coupling/kernels.h>
+#include <mitre/io/mesh_reader.h>
+#include <mitre/simulation/simulation.h>
+
+namespace mitre::simulation
+{
+  using namespace dealii;
+
+  namespace
+  {
+    const char *const component_names[3] = {"x", "y", "z"};
+
+    double wall_clock()
+    {
+      return std::chrono::duration<double>(
+               std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+    }
+  } // namespace
+
+
+  template <int dim>
+  void Simulation<dim>::declare_parameters(ParameterHandler &prm)
+  {
+    prm.declare_entry("Output folder",
+                      "runs/mitre",
+                      Patterns::Anything(),
+                      "Where the run's files go; made if it is not there.");
+
+    prm.enter_subsection("Time");
+    prm.declare_entry("End time", "1", Patterns::Double(0.), "Time at the end [s].");
+    prm.declare_entry("Time step", "1e-3", Patterns::Double(1e-15), "Time step [s].");
+    prm.declare_entry(
+      "Maximum Courant number",
+      "1",
+      Patterns::Double(0.),
+      "The run stops with an error if the flow passes more cells than this "
+      "in a step.");
+    prm.leave_subsection();
+
+    prm.enter_subsection("Grid");
+    grid::PatchGridParameters<dim>::declare_parameters(prm);
+    prm.enter_subsection("Refinement");
+    Refinement<dim>::declare_parameters(prm);
+    prm.leave_subsection();
+    prm.leave_subsection();
+
+    prm.enter_subsection("Fluid");
+    fluid::FluidParameters::declare_parameters(prm);
+    for (unsigned int c = 0; c < dim; ++c)
+      prm.declare_entry(
+        std::string("Initial velocity ") + component_names[c],
+        "0",
+        Patterns::Anything(),
+        "Component of the velocity at the start [cm/s], an expression of x, "
+        "y, z [cm]; made divergence-free.");
+    prm.leave_subsection();
+
+    prm.enter_subsection("Boundary conditions");
+    fluid::BoundaryConditions<dim>::declare_parameters(prm);
+    prm.leave_subsection();
+
+    prm.enter_subsection("Structure");
+    const auto part_names = base::declare_names(
+      prm, "Parts", "", "Names of the parts; each has a subsection \"Part NAME\".");
+    for (const std::string &name : part_names)
+      {
+        prm.enter_subsection("Part " + name);
+        structure::BodyParameters<dim>::declare_parameters(prm);
+        coupling::CouplingParameters::declare_parameters(prm);
+        prm.leave_subsection();
+      }
+    prm.leave_subsection();
+
+    prm.enter_subsection("Instruments");
+    instruments::Instruments<dim>::declare_parameters(prm);
+    prm.leave_subsection();
+
+    prm.enter_subsection("Output");
+    prm.declare_entry(
+      "Time between fields",
+      "0.01",
+      Patterns::Double(0.),
+      "Time between two outputs of the fluid and the parts [s]; 0: none.");
+    prm.declare_entry("Steps between statistics",
+                      "10",
+                      Patterns::Integer(1),
+                      "Time steps between two lines of statistics.csv.");
+    prm.leave_subsection();
+  }
+
+
+  template <int dim>
+  Simulation<dim>::Simulation(ParameterHandler &prm,
+                              const std::string &parameter_file,
+                              const MPI_Comm communicator)
+    : communicator(communicator)
+    , root(Utilities::MPI::this_mpi_process(communicator) == 0)
+    , parameter_file(parameter_file)
+  {
+    output_folder = prm.get("Output folder");
+
+    prm.enter_subsection("Time");
+    end_time               = prm.get_double("End time");
+    time_step              = prm.get_double("Time step");
+    maximum_courant_number = prm.get_double("Maximum Courant number");
+    prm.leave_subsection();
+
+    prm.enter_subsection("Output");
+    output_interval     = prm.get_double("Time between fields");
+    statistics_interval = prm.get_integer("Steps between statistics");
+    prm.leave_subsection();
+
+    prm.enter_subsection("Fluid");
+    fluid_parameters.parse_parameters(prm);
+    for (unsigned int c = 0; c < dim; ++c)
+      {
+        const std::string entry = std::string("Initial velocity ") + component_names[c];
+        initial_velocity.emplace_back(prm.get(entry), "Fluid / " + entry);
+      }
+    prm.leave_subsection();
+
+    prm.enter_subsection("Boundary conditions");
+    boundary_conditions.parse_parameters(prm);
+    prm.leave_subsection();
+
+    prm.enter_subsection("Grid");
+    grid::PatchGridParameters<dim> grid_parameters;
+    grid_parameters.parse_parameters(prm);
+    prm.enter_subsection("Refinement");
+    refinement.parse_parameters(prm);
+    prm.leave_subsection();
+    prm.leave_subsection();
+    patch_grid = std::make_unique<grid::PatchGrid<dim>>(communicator, grid_parameters);
+
+    prm.enter_subsection("Structure");
+    read_parts(prm);
+    prm.leave_subsection();
+
+    patch_grid->adapt(wanted_levels());
+    fluid = std::make_unique<fluid::NavierStokes<dim>>(
+      *patch_grid, boundary_conditions, fluid_parameters);
+    fe_coupling = std::make_unique<coupling::FECoupling<dim>>(*patch_grid);
+    for (const Part &part : parts)
+      fe_coupling->add_part(*part.body, part.coupling_parameters);
+    distribute_parts();
+
+    prm.enter_subsection("Instruments");
+    instruments.parse_parameters(prm);
+    prm.leave_subsection();
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::read_parts(ParameterHandler &prm)
+  {
+    for (const std::string &name : base::parse_names(prm.get("Parts")))
+      {
+        prm.enter_subsection("Part " + name);
+        structure::BodyParameters<dim> body_parameters;
+        body_parameters.parse_parameters(prm, name);
+        Part part;
+        part.coupling_parameters.parse_parameters(prm);
+        const int finest = patch_grid->maximum_level();
+        if (part.coupling_parameters.level > finest)
+          throw base::UserError("Part " + name + ": \"Grid level\" is " +
+                                std::to_string(part.coupling_parameters.level) +
+                                ", but \"Grid / Maximum level\" is only " +
+                                std::to_string(finest) + ".");
+        prm.leave_subsection();
+
+        structure::Mesh<dim> mesh =
+          io::read_mesh<dim>(body_parameters.mesh_file, communicator);
+        part.body = std::make_unique<structure::Body<dim>>(
+          std::move(body_parameters), std::move(mesh), communicator);
+
+        // parts must lie in the box before the grid can be built around them
+        const auto &box = patch_grid->box();
+        for (const Point<dim> &node : part.body->mesh().nodes)
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              const auto &[lower, upper] = box.get_boundary_points();
+              if (!patch_grid->periodic()[d] &&
+                  !(node[d] >= lower[d] && node[d] <= upper[d]))
+                {
+                  std::ostringstream message;
+                  message << "Part " << name << ": a node of " << part.body->mesh().source
+                          << " is at (" << node << ") cm, outside of the fluid box from ("
+                          << lower << ") to (" << upper << ") cm.";
+                  throw base::UserError(message.str());
+                }
+            }
+        part.body->initialize_vector(part.X);
+        part.body->set_to_reference_positions(part.X);
+        part.body->initialize_vector(part.U);
+        parts.push_back(std::move(part));
+      }
+  }
+
+
+  template <int dim>
+  std::function<int(const BoundingBox<dim> &)> Simulation<dim>::wanted_levels()
+  {
+    refinement_map = std::make_shared<coupling::RefinementMap<dim>>(*patch_grid);
+    positions_at_regrid.clear();
+    for (const Part &part : parts)
+      {
+        refinement_map->add(
+          *part.body, part.X, part.coupling_parameters, refinement.buffer());
+        positions_at_regrid.push_back(part.body->to_mesh_order(part.X));
+      }
+    // a quadrature point costs about a thousandth of the 8^3 cells of a patch
+    patch_grid->extra_weight = [map = refinement_map](const BoundingBox<dim> &leaf) {
+      return static_cast<unsigned int>(std::min(1e6, map->n_points(leaf)));
+    };
+    return [this](const BoundingBox<dim> &leaf) {
+      return std::max(refinement.wanted_level(leaf), refinement_map->wanted_level(leaf));
+    };
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::distribute_parts()
+  {
+    for (Part &part : parts)
+      {
+        part.body->distribute(
+          [this](const std::vector<Point<dim>> &points) {
+            return fe_coupling->owners_of(points);
+          },
+          part.X,
+          {&part.U});
+        part.body->initialize_vector(part.X_half);
+        part.body->initialize_vector(part.F);
+      }
+    kernel_halo =
+      std::make_unique<grid::VelocityHalo<dim>>(fluid->space(),
+                                                coupling::kernel_halo_width,
+                                                grid::HaloShape::full,
+                                                grid::BoundaryExtension::reflection);
+    kernel_halo->make_own_partitioner();
+    fe_coupling->reinit(*kernel_halo);
+    fluid->operators().initialize_velocity(grid_force);
+    fluid->operators().initialize_velocity(middle_velocity);
+  }
+
+
+  template <int dim>
+  double Simulation<dim>::largest_displacement_since_regrid() const
+  {
+    double largest = 0.;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      {
+        const std::vector<double> now   = parts[i].body->to_mesh_order(parts[i].X);
+        const std::vector<double> &then = positions_at_regrid[i];
+        const int level                 = parts[i].coupling_parameters.level;
+        const double h                  = patch_grid->cell_width(
+          level < 0 ? static_cast<int>(patch_grid->maximum_level()) : level, 0);
+        for (std::size_t k = 0; k < now.size(); k += dim)
+          {
+            double square = 0.;
+            for (unsigned int d = 0; d < dim; ++d)
+              square += (now[k + d] - then[k + d]) * (now[k + d] - then[k + d]);
+            largest = std::max(largest, std::sqrt(square) / h);
+          }
+      }
+    return largest;
+  }
+
+
+  template <int dim>
+  bool Simulation<dim>::regrid()
+  {
+    const bool changed = fluid->regrid(wanted_levels(), current_time);
+    if (changed)
+      {
+        distribute_parts();
+        ++n_regrids;
+      }
+    return changed;
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::spread_forces(const bool middle, const double t)
+  {
+    std::vector<const structure::VectorType *> forces;
+    for (Part &part : parts)
+      {
+        part.body->compute_force_density(
+          middle ? part.X_half : part.X, part.U, t, part.F);
+        forces.push_back(&part.F);
+      }
+    fe_coupling->spread(forces, grid_force);
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::advance()
+  {
+    const double dt = time_step;
+    if (parts.empty())
+      {
+        grid_force      = 0.;
+        last_iterations = fluid->advance(current_time, dt, grid_force);
+      }
+    else
+      {
+        std::vector<const structure::VectorType *> positions, middle_positions;
+        std::vector<structure::VectorType *> velocities;
+        for (Part &part : parts)
+          {
+            positions.push_back(&part.X);
+            middle_positions.push_back(&part.X_half);
+            velocities.push_back(&part.U);
+          }
+
+        // (2.14), (2.23): to the middle of the step with the velocity at its beginning
+        fe_coupling->update_points(positions);
+        fe_coupling->interpolate(fluid->velocity(), velocities);
+        if (fluid->is_first_step())
+          {
+            spread_forces(false, current_time);
+            fluid->predict(current_time, dt, grid_force);
+          }
+        for (Part &part : parts)
+          {
+            part.X_half = part.X;
+            part.X_half.add(0.5 * dt, part.U);
+          }
+
+        // (2.16)-(2.18)
+        fe_coupling->update_points(middle_positions);
+        spread_forces(true, current_time + 0.5 * dt);
+        last_iterations = fluid->advance(current_time, dt, grid_force);
+
+        // (2.19)
+        middle_velocity = fluid->velocity();
+        middle_velocity.sadd(0.5, 0.5, fluid->previous_velocity());
+        fe_coupling->interpolate(middle_velocity, velocities);
+        for (Part &part : parts)
+          part.X.add(dt, part.U);
+      }
+    ++step_number;
+    current_time = start_time + step_number * time_step;
+
+    courant_number = fluid->operators().max_courant_number(fluid->velocity(), dt);
+    if (!(courant_number <= maximum_courant_number))
+      {
+        std::ostringstream message;
+        message
+          << "At t = " << current_time << " s the flow passes " << courant_number
+          << " cells in a time step of " << dt << " s, more than the "
+          << maximum_courant_number
+          << " that \"Time / Maximum Courant number\" allows. Usually the time step is "
+             "too large for the stiffness of a part or of its constraints; try half "
+             "of it.";
+        throw base::UserError(message.str());
+      }
+
+    if (!parts.empty() && refinement.interval() > 0 &&
+        step_number % refinement.interval() == 0 &&
+        patch_grid->maximum_level() > patch_grid->minimum_level() &&
+        largest_displacement_since_regrid() > 0.5 * refinement.buffer())
+      regrid();
+  }
+
+
+  template <int dim>
+  instruments::Observation<dim> Simulation<dim>::observation() const
+  {
+    instruments::Observation<dim> result;
+    result.time  = current_time;
+    result.dt    = step_number == 0 ? 0. : time_step * statistics_interval;
+    result.fluid = fluid.get();
+    for (const Part &part : parts)
+      result.parts.push_back({part.body.get(), &part.X, &part.U});
+    return result;
+  }
+
+
+  template <int dim>
+  std::vector<std::string> Simulation<dim>::statistics_columns() const
+  {
+    std::vector<std::string> columns = {"time [s]",
+                                        "solver iterations",
+                                        "cells",
+                                        "Courant number",
+                                        "largest divergence [1/s]",
+                                        "wall time per step [s]"};
+    for (const Part &part : parts)
+      for (const auto &constraint : part.body->constraints())
+        columns.push_back(part.body->name() + " " + constraint.name +
+                          " displacement [cm]");
+    for (const std::string &column : instruments.columns())
+      columns.push_back(column);
+    return columns;
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::measure(const unsigned int iterations, const double wall_time)
+  {
+    std::vector<double> values = {current_time,
+                                  static_cast<double>(iterations),
+                                  static_cast<double>(patch_grid->n_global_cells()),
+                                  courant_number,
+                                  fluid->operators().max_divergence(fluid->velocity()),
+                                  wall_time};
+    for (const Part &part : parts)
+      for (const double displacement :
+           part.body->compute_constraint_displacements(part.X, current_time))
+        values.push_back(displacement);
+    for (const double value : instruments.measure(observation()))
+      values.push_back(value);
+    statistics->write(values);
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::write_fields()
+  {
+    output->write_fluid(
+      fluid->space(), fluid->velocity(), fluid->pressure(), current_time);
+    for (const Part &part : parts)
+      output->write_part(*part.body, part.X, part.U, current_time);
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::print_summary(std::ostream &out) const
+  {
+    out << "Mitre: " << parameter_file << ", " << dim << " dimensions, "
+        << Utilities::MPI::n_mpi_processes(communicator) << " rank(s)\n";
+    const auto &[lower, upper] = patch_grid->box().get_boundary_points();
+    out << "  box from (" << lower << ") to (" << upper << ") cm\n"
+        << "  grid of " << patch_grid->n_global_patches() << " patches, "
+        << patch_grid->n_global_cells() << " cells, spacing "
+        << patch_grid->cell_width(patch_grid->maximum_level(), 0)
+        << " cm at the finest level " << patch_grid->maximum_level() << '\n';
+    for (const Part &part : parts)
+      {
+        const structure::Mesh<dim> &mesh = part.body->mesh();
+        out << "  part " << part.body->name() << ": " << mesh.n_elements()
+            << " elements, " << mesh.nodes.size() << " nodes (" << mesh.source << ")\n";
+      }
+    out << "  " << std::lround((end_time - start_time) / time_step) << " steps of "
+        << time_step << " s to t = " << end_time << " s; output in " << output_folder
+        << std::endl;
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::run()
+  {
+    if (root)
+      {
+        std::error_code error;
+        std::filesystem::create_directories(output_folder, error);
+        std::ifstream in(parameter_file);
+        std::ofstream copy(std::filesystem::path(output_folder) / "parameters.prm");
+        copy << in.rdbuf();
+        copy.close();
+        AssertThrow(copy.good(),
+                    base::UserError(
+                      "Cannot write to the output folder " + output_folder + ": " +
+                      (error ? error.message() : "no permission, or the disk is full") +
+                      "."));
+      }
+    MPI_Barrier(communicator);
+    output     = std::make_unique<io::OutputWriter<dim>>(output_folder, communicator);
+    statistics = std::make_unique<io::StatisticsFile>(
+      output_folder + "/statistics.csv", statistics_columns(), communicator);
+
+    fluid->set_velocity(
+      [this](const Point<dim> &x, const unsigned int c) {
+        return initial_velocity[c].value(x);
+      },
+      start_time);
+
+    current_time               = start_time;
+    step_number                = 0;
+    const unsigned int n_steps = std::lround((end_time - start_time) / time_step);
+    base::Progress progress(std::cout, start_time, end_time, "s");
+
+    unsigned int n_outputs = 0;
+    if (output_interval > 0.)
+      {
+        write_fields();
+        ++n_outputs;
+      }
+    measure(0, 0.);
+
+    double clock                  = wall_clock();
+    unsigned int iterations_since = 0, steps_since = 0;
+    while (step_number < n_steps)
+      {
+        advance();
+        iterations_since = std::max(iterations_since, last_iterations);
+        ++steps_since;
+
+        if (step_number % statistics_interval == 0 || step_number == n_steps)
+          {
+            const double now = wall_clock();
+            measure(iterations_since, (now - clock) / steps_since);
+            clock            = now;
+            iterations_since = 0;
+            steps_since      = 0;
+          }
+        if (output_interval > 0. &&
+            (current_time >= (n_outputs - 1e-6) * output_interval + start_time ||
+             step_number == n_steps))
+          {
+            const double begin = wall_clock();
+            write_fields();
+            ++n_outputs;
+            clock += wall_clock() - begin;
+          }
+        if (root)
+          {
+            std::ostringstream note;
+            note << "step " << step_number << ", " << last_iterations << " iterations, "
+                 << patch_grid->n_global_cells() << " cells, Courant number "
+                 << std::setprecision(2) << courant_number;
+            progress.update(current_time, note.str());
+          }
+      }
+    if (root)
+      progress.finish();
+  }
+
+
+  template class Simulation<2>;
+  template class Simulation<3>;
+} // namespace mitre::simulation
