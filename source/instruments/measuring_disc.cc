@@ -34,10 +34,9 @@ namespace mitre::instruments
   void MeasuringDisc<dim>::parse_parameters(dealii::ParameterHandler &prm,
                                             const std::string &instrument)
   {
-    axis         = parse_axis<dim>(prm.get("Axis"), instrument);
-    position     = prm.get_double("Position");
-    radius       = prm.get_double("Radius");
-    centre[axis] = position;
+    axis     = parse_axis<dim>(prm.get("Axis"), instrument);
+    position = prm.get_double("Position");
+    radius   = prm.get_double("Radius");
     if (radius == 0)
       return;
 
@@ -88,12 +87,14 @@ namespace mitre::instruments
                                         const std::string &instrument) const
   {
     const double lower = box.lower_bound(axis), upper = box.upper_bound(axis);
-    AssertThrow(lower <= position && position <= upper,
-                base::UserError("Instrument " + instrument + ": its position " +
-                                std::to_string(position) +
-                                " cm is outside of the box, which reaches from " +
-                                std::to_string(lower) + " to " + std::to_string(upper) +
-                                " cm along the axis " + "xyz"[axis] + "."));
+    if (lower <= position && position <= upper)
+      return;
+    std::ostringstream text;
+    text << "Instrument " << instrument << ": its position " << position
+         << " cm is outside of the box, which reaches from " << lower << " to " << upper
+         << " cm along the axis "
+         << "xyz"[axis] << ".";
+    throw base::UserError(text.str());
   }
 
 

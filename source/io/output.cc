@@ -73,29 +73,49 @@ namespace mitre::io
       const unsigned int n     = patch_grid.n_cells_per_side();
       const unsigned int width = n + 2;
 
-      // Step 1: across the sides.
+      // Step 1: across the sides. Beyond a side with coarser cells, a cell is next to
+      // 2^(dim-1) of the patch, with the mean of which it is compared.
       for (unsigned int side = 0; side < 2 * dim; ++side)
         {
           const grid::Neighbor kind = patch_grid.neighbor(p, side);
           if (kind == grid::Neighbor::same)
             continue;
-          const unsigned int d   = side / 2;
-          const bool upper       = side % 2 == 1;
-          const std::size_t step = Utilities::pow<std::size_t>(width, d);
-          for (std::size_t i = 0; i < padded.size(); ++i)
+          const unsigned int d        = side / 2;
+          const std::size_t step      = Utilities::pow<std::size_t>(width, d);
+          const std::ptrdiff_t inward = (side % 2 == 0 ? 1 : -1) * std::ptrdiff_t(step);
+          for (unsigned int face = 0; face < Utilities::fixed_power<dim - 1>(n); ++face)
             {
-              const unsigned int layer = (i / step) % width;
-              if (layer != (upper ? n + 1 : 0))
-                continue;
-              const double inside  = padded[upper ? i - step : i + step];
-              const double further = padded[upper ? i - 2 * step : i + 2 * step];
+              // the cell beyond the face, and the first of those that a coarse one meets
+              std::size_t beyond = (side % 2 == 0 ? 0 : n + 1) * step;
+              std::size_t first  = beyond;
+              unsigned int rest  = face;
+              for (unsigned int e = 0; e < dim; ++e)
+                if (e != d)
+                  {
+                    const std::size_t step_e = Utilities::pow<std::size_t>(width, e);
+                    beyond += (rest % n + 1) * step_e;
+                    first += (rest % n / 2 * 2 + 1) * step_e;
+                    rest /= n;
+                  }
+              const double inside = padded[beyond + inward];
               if (kind == grid::Neighbor::boundary)
-                padded[i] = 2 * inside - further;
+                padded[beyond] = 2 * inside - padded[beyond + 2 * inward];
+              else if (kind == grid::Neighbor::finer)
+                padded[beyond] = inside + (padded[beyond] - inside) / 0.75;
               else
                 {
-                  // distance of the centres in units of this patch's cells
-                  const double distance = kind == grid::Neighbor::coarser ? 1.5 : 0.75;
-                  padded[i]             = inside + (padded[i] - inside) / distance;
+                  double mean = 0;
+                  for (unsigned int k = 0; k < (1u << (dim - 1)); ++k)
+                    {
+                      std::size_t cell = first + inward;
+                      unsigned int bit = 0;
+                      for (unsigned int e = 0; e < dim; ++e)
+                        if (e != d)
+                          cell +=
+                            ((k >> bit++) & 1u) * Utilities::pow<std::size_t>(width, e);
+                      mean += padded[cell] / (1u << (dim - 1));
+                    }
+                  padded[beyond] = inside + (padded[beyond] - mean) / 1.5;
                 }
             }
         }

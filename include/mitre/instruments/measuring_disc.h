@@ -22,7 +22,7 @@ namespace mitre::instruments
     /// Coordinate along the axis [cm].
     double position = 0;
 
-    /// [cm]; its coordinate along the axis is the position.
+    /// [cm]; its coordinate along the axis has no meaning.
     dealii::Point<dim> centre;
 
     /// [cm]; 0: the whole cross-section.
