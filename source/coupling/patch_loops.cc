@@ -42,33 +42,22 @@ namespace mitre::coupling
 
   namespace
   {
-    /// Eight doubles that need not be aligned.
-    using EightDoubles = double __attribute__((vector_size(64), aligned(8), may_alias));
+    using EightDoubles = double __attribute__((vector_size(64)));
 
-    // Copies rather than casts of pointers: with those, gcc 12 takes stores of vectors
-    // and loads of the same doubles for independent of each other, and reorders them.
-    inline EightDoubles load_eight(const double *values)
+    /// Vectors are read and written by memcpy, which compilers turn into one instruction
+    /// and which, unlike a cast of the pointer, may be mixed with access to the numbers.
+    template <typename Vector>
+    inline Vector load(const double *values)
     {
-      EightDoubles vector;
-      std::memcpy(&vector, values, sizeof(vector));
+      Vector vector;
+      std::memcpy(&vector, values, sizeof(Vector));
       return vector;
     }
 
-    inline void store_eight(double *values, const EightDoubles vector)
+    template <typename Vector>
+    inline void store(double *values, const Vector vector)
     {
-      std::memcpy(values, &vector, sizeof(vector));
-    }
-
-    inline FourDoubles load_four(const double *values)
-    {
-      FourDoubles vector;
-      std::memcpy(&vector, values, sizeof(vector));
-      return vector;
-    }
-
-    inline void store_four(double *values, const FourDoubles vector)
-    {
-      std::memcpy(values, &vector, sizeof(vector));
+      std::memcpy(values, &vector, sizeof(Vector));
     }
 
 
@@ -151,13 +140,13 @@ namespace mitre::coupling
               sum[c] = EightDoubles{};
             for (int a = 0; a < n_nodes; ++a)
               {
-                const EightDoubles phi =
-                  load_eight(part.rule->by_node.data() + a * part.rule->n_padded + q);
+                const EightDoubles phi = load<EightDoubles>(part.rule->by_node.data() +
+                                                            a * part.rule->n_padded + q);
                 for (int c = 0; c < dim; ++c)
                   sum[c] += phi * nodal[a][c];
               }
             for (int c = 0; c < dim; ++c)
-              store_eight(values[c] + part.first_in_chunk + i, sum[c]);
+              store(values[c] + part.first_in_chunk + i, sum[c]);
           }
     }
 
@@ -206,8 +195,8 @@ namespace mitre::coupling
       for (unsigned int i = 0; i < chunk.n_points; ++i)
         for (int d = 0; d < dim; ++d)
           for (int s = 0; s < 2; ++s)
-            store_four(chunk.weights[i][d][s],
-                       Kernel::weights(chunk.r[d][s][i], chunk.root[d][s][i]));
+            store(chunk.weights[i][d][s],
+                  Kernel::weights(chunk.r[d][s][i], chunk.root[d][s][i]));
     }
 
 
@@ -243,7 +232,7 @@ namespace mitre::coupling
               FourDoubles sum{};
               if constexpr (dim == 2)
                 for (unsigned int j = 0; j < 4; ++j)
-                  sum += load_four(corner + j * stride_y) * weights_y[j];
+                  sum += load<FourDoubles>(corner + j * stride_y) * weights_y[j];
               else
                 {
                   const double *weights_z = chunk.weights[i][2][c == 2 ? 0 : 1];
@@ -251,14 +240,14 @@ namespace mitre::coupling
                   for (unsigned int k = 0; k < 4; ++k)
                     {
                       const double *plane = corner + k * stride_z;
-                      FourDoubles rows    = load_four(plane) * weights_y[0];
-                      rows += load_four(plane + stride_y) * weights_y[1];
-                      rows += load_four(plane + 2 * stride_y) * weights_y[2];
-                      rows += load_four(plane + 3 * stride_y) * weights_y[3];
+                      FourDoubles rows    = load<FourDoubles>(plane) * weights_y[0];
+                      rows += load<FourDoubles>(plane + stride_y) * weights_y[1];
+                      rows += load<FourDoubles>(plane + 2 * stride_y) * weights_y[2];
+                      rows += load<FourDoubles>(plane + 3 * stride_y) * weights_y[3];
                       sum += rows * weights_z[k];
                     }
                 }
-              sum *= load_four(chunk.weights[i][0][c == 0 ? 0 : 1]);
+              sum *= load<FourDoubles>(chunk.weights[i][0][c == 0 ? 0 : 1]);
               chunk.values[c][i] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
             }
         }
@@ -279,13 +268,14 @@ namespace mitre::coupling
                 force.values[c].data() + first_entry<dim>(chunk, extents, c, i);
               const double *weights_y = chunk.weights[i][1][c == 1 ? 0 : 1];
               const FourDoubles row =
-                load_four(chunk.weights[i][0][c == 0 ? 0 : 1]) * chunk.values[c][i];
+                load<FourDoubles>(chunk.weights[i][0][c == 0 ? 0 : 1]) *
+                chunk.values[c][i];
 
               const auto add_plane = [&](double *plane, const FourDoubles row) {
 #pragma GCC unroll 4
                 for (unsigned int j = 0; j < 4; ++j)
-                  store_four(plane + j * stride_y,
-                             load_four(plane + j * stride_y) + row * weights_y[j]);
+                  store(plane + j * stride_y,
+                        load<FourDoubles>(plane + j * stride_y) + row * weights_y[j]);
               };
               if constexpr (dim == 2)
                 add_plane(corner, row);

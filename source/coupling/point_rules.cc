@@ -84,7 +84,8 @@ namespace mitre::coupling
     if (shape == structure::ElementShape::hypercube)
       return dealii::QGauss<dim>(k);
 
-    constexpr unsigned int largest = 5;
+    // The largest rule that there is.
+    constexpr unsigned int largest = dim == 2 ? 7 : 5;
     if (k <= largest)
       return simplex_rule<dim>(k);
     const unsigned int m = (k + largest - 1) / largest;

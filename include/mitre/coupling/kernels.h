@@ -7,8 +7,8 @@
 
 namespace mitre::coupling
 {
-  /// Four doubles that need not be aligned (gcc and clang vector extension).
-  using FourDoubles = double __attribute__((vector_size(32), aligned(8), may_alias));
+  /// The weights of four grid points (vector extension of gcc and clang).
+  using FourDoubles = double __attribute__((vector_size(32)));
 
 
   /**
