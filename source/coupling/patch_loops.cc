@@ -1,3 +1,10 @@
+#if defined(__GNUC__) && !defined(__clang__)
+// With strict aliasing, gcc 12 loses the vectors that this file writes by memcpy and reads
+// as numbers again: velocities come out as zero. It is set for the headers too, as gcc does
+// not inline functions with other options.
+#  pragma GCC optimize("no-strict-aliasing")
+#endif
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -214,6 +221,30 @@ namespace mitre::coupling
     }
 
 
+    /// Four rows of four values, each weighted, as a row.
+    inline FourDoubles
+    sum_of_rows(const double *plane, const unsigned int stride, const double *weights)
+    {
+      return (load<FourDoubles>(plane) * weights[0] +
+              load<FourDoubles>(plane + stride) * weights[1]) +
+             (load<FourDoubles>(plane + 2 * stride) * weights[2] +
+              load<FourDoubles>(plane + 3 * stride) * weights[3]);
+    }
+
+
+    /// Adds a row, weighted, to each of four rows.
+    inline void add_to_rows(double *plane,
+                            const unsigned int stride,
+                            const double *weights,
+                            const FourDoubles row)
+    {
+      store(plane, load<FourDoubles>(plane) + row * weights[0]);
+      store(plane + stride, load<FourDoubles>(plane + stride) + row * weights[1]);
+      store(plane + 2 * stride, load<FourDoubles>(plane + 2 * stride) + row * weights[2]);
+      store(plane + 3 * stride, load<FourDoubles>(plane + 3 * stride) + row * weights[3]);
+    }
+
+
     /// values[c][i] = velocity component c at point i. Bound by loads: 4^dim values a
     /// component, in rows of four.
     template <int dim>
@@ -223,29 +254,23 @@ namespace mitre::coupling
         {
           const auto &extents         = velocity.extents[c];
           const unsigned int stride_y = extents[0], stride_z = extents[0] * extents[1];
+          const double *values = velocity.values[c].data();
           for (unsigned int i = 0; i < chunk.n_points; ++i)
             {
-              const double *corner =
-                velocity.values[c].data() + first_entry<dim>(chunk, extents, c, i);
+              const double *corner    = values + first_entry<dim>(chunk, extents, c, i);
               const double *weights_y = chunk.weights[i][1][c == 1 ? 0 : 1];
 
-              FourDoubles sum{};
-              if constexpr (dim == 2)
-                for (unsigned int j = 0; j < 4; ++j)
-                  sum += load<FourDoubles>(corner + j * stride_y) * weights_y[j];
-              else
+              FourDoubles sum = sum_of_rows(corner, stride_y, weights_y);
+              if constexpr (dim == 3)
                 {
                   const double *weights_z = chunk.weights[i][2][c == 2 ? 0 : 1];
-#pragma GCC unroll 4
-                  for (unsigned int k = 0; k < 4; ++k)
-                    {
-                      const double *plane = corner + k * stride_z;
-                      FourDoubles rows    = load<FourDoubles>(plane) * weights_y[0];
-                      rows += load<FourDoubles>(plane + stride_y) * weights_y[1];
-                      rows += load<FourDoubles>(plane + 2 * stride_y) * weights_y[2];
-                      rows += load<FourDoubles>(plane + 3 * stride_y) * weights_y[3];
-                      sum += rows * weights_z[k];
-                    }
+                  sum *= weights_z[0];
+                  sum +=
+                    sum_of_rows(corner + stride_z, stride_y, weights_y) * weights_z[1];
+                  sum += sum_of_rows(corner + 2 * stride_z, stride_y, weights_y) *
+                         weights_z[2];
+                  sum += sum_of_rows(corner + 3 * stride_z, stride_y, weights_y) *
+                         weights_z[3];
                 }
               sum *= load<FourDoubles>(chunk.weights[i][0][c == 0 ? 0 : 1]);
               chunk.values[c][i] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
@@ -262,29 +287,26 @@ namespace mitre::coupling
         {
           const auto &extents         = force.extents[c];
           const unsigned int stride_y = extents[0], stride_z = extents[0] * extents[1];
+          double *values = force.values[c].data();
           for (unsigned int i = 0; i < chunk.n_points; ++i)
             {
-              double *corner =
-                force.values[c].data() + first_entry<dim>(chunk, extents, c, i);
+              double *corner          = values + first_entry<dim>(chunk, extents, c, i);
               const double *weights_y = chunk.weights[i][1][c == 1 ? 0 : 1];
               const FourDoubles row =
                 load<FourDoubles>(chunk.weights[i][0][c == 0 ? 0 : 1]) *
                 chunk.values[c][i];
 
-              const auto add_plane = [&](double *plane, const FourDoubles row) {
-#pragma GCC unroll 4
-                for (unsigned int j = 0; j < 4; ++j)
-                  store(plane + j * stride_y,
-                        load<FourDoubles>(plane + j * stride_y) + row * weights_y[j]);
-              };
               if constexpr (dim == 2)
-                add_plane(corner, row);
+                add_to_rows(corner, stride_y, weights_y, row);
               else
                 {
                   const double *weights_z = chunk.weights[i][2][c == 2 ? 0 : 1];
-#pragma GCC unroll 4
-                  for (unsigned int k = 0; k < 4; ++k)
-                    add_plane(corner + k * stride_z, row * weights_z[k]);
+                  add_to_rows(corner, stride_y, weights_y, row * weights_z[0]);
+                  add_to_rows(corner + stride_z, stride_y, weights_y, row * weights_z[1]);
+                  add_to_rows(
+                    corner + 2 * stride_z, stride_y, weights_y, row * weights_z[2]);
+                  add_to_rows(
+                    corner + 3 * stride_z, stride_y, weights_y, row * weights_z[3]);
                 }
             }
         }
