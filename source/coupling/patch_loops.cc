@@ -1,7 +1,7 @@
 #if defined(__GNUC__) && !defined(__clang__)
-// With strict aliasing, gcc 12 loses the vectors that this file writes by memcpy and reads
-// as numbers again: velocities come out as zero. It is set for the headers too, as gcc does
-// not inline functions with other options.
+// With strict aliasing, gcc 12 loses the vectors that this file writes by memcpy and
+// reads as numbers again: velocities come out as zero. It is set for the headers too, as
+// gcc does not inline functions with other options.
 #  pragma GCC optimize("no-strict-aliasing")
 #endif
 
