@@ -1,8 +1,9 @@
 #if defined(__GNUC__) && !defined(__clang__)
-// With strict aliasing, gcc 12 loses the vectors that this file writes by memcpy and
-// reads as numbers again: velocities come out as zero. It is set for the headers too, as
-// gcc does not inline functions with other options.
-#  pragma GCC optimize("no-strict-aliasing")
+// From -O2 on, gcc 12 makes wrong code of this file (velocities of zero, or of shifted
+// points; the cause is not known, and the address and undefined behaviour sanitizers find
+// nothing). With -O1 the tests of coupling pass. The vectors are written out, so that little
+// is lost.
+#  pragma GCC optimize("O1", "no-strict-aliasing", "no-unroll-loops")
 #endif
 
 #include <algorithm>
