@@ -1,6 +1,7 @@
 // Material ids and laws that do not fit the mesh, an element that a run turns inside out
 // (a node of the first element mirrored at the opposite face) and a node outside of the
-// box end in errors that name part, file, id, element, place and time.
+// box end in errors that name part, file, id, element, place and time. The first case has
+// no mistake.
 
 #include <mitre/base/exceptions.h>
 
