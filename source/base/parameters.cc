@@ -69,6 +69,73 @@ namespace mitre::base
     }
 
 
+    std::string read_file(const std::string &file_name)
+    {
+      std::error_code error;
+      AssertThrow(std::filesystem::is_regular_file(file_name, error),
+                  UserError("There is no parameter file '" + file_name + "'."));
+      std::ifstream file(file_name);
+      AssertThrow(file, UserError("Cannot read the parameter file '" + file_name + "'."));
+      std::stringstream text;
+      text << file.rdbuf();
+      return text.str();
+    }
+
+
+    // The lower-case first word of a line and the rest of it, without comments.
+    std::pair<std::string, std::string> split_line(const std::string &line)
+    {
+      const std::string text = trim(line.substr(0, line.find('#')));
+      const auto blank       = text.find_first_of(" \t");
+      std::string word       = text.substr(0, blank);
+      std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) {
+        return std::tolower(c);
+      });
+      return {word, blank == std::string::npos ? "" : trim(text.substr(blank))};
+    }
+
+
+    // The path of the file that a line at some place includes.
+    std::string find_included(const std::string &name,
+                              const std::string &file,
+                              const std::string &place,
+                              const unsigned int depth)
+    {
+      AssertThrow(depth < 20,
+                  UserError(place + "more than 20 files include one another."));
+      try
+        {
+          return find_file(name, file);
+        }
+      catch (const UserError &error)
+        {
+          throw UserError(place + error.what());
+        }
+    }
+
+
+    std::string expand_includes(const std::string &file_name, const unsigned int depth)
+    {
+      std::istringstream input(read_file(file_name));
+      std::string expanded, line;
+      for (unsigned int number = 1; std::getline(input, line); ++number)
+        {
+          const auto [word, rest] = split_line(line);
+          if (word == "include")
+            {
+              const std::string included = find_included(
+                rest, file_name, file_name + ":" + std::to_string(number) + ": ", depth);
+              expanded += "# from " + included + ":\n" +
+                          expand_includes(included, depth + 1) + "# end of " + included +
+                          "\n";
+            }
+          else
+            expanded += line + "\n";
+        }
+      return expanded;
+    }
+
+
     // One line of a parameter file: the beginning of a subsection, or the setting of a
     // parameter.
     struct Statement
@@ -114,13 +181,7 @@ namespace mitre::base
             continue;
 
           const std::string place = file + ":" + std::to_string(number) + ": ";
-          const auto blank        = line.find_first_of(" \t");
-          std::string word        = line.substr(0, blank);
-          std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) {
-            return std::tolower(c);
-          });
-          const std::string rest =
-            blank == std::string::npos ? "" : trim(line.substr(blank));
+          const auto [word, rest] = split_line(line);
 
           if (word == "subsection")
             {
@@ -155,19 +216,8 @@ namespace mitre::base
             }
           else if (word == "include")
             {
-              AssertThrow(depth < 20,
-                          UserError(place + "more than 20 files include one another."));
-              std::string included;
-              try
-                {
-                  included = find_file(rest, file);
-                }
-              catch (const UserError &error)
-                {
-                  throw UserError(place + error.what());
-                }
-              std::ifstream stream(included);
-              AssertThrow(stream, UserError(place + "cannot read '" + included + "'."));
+              const std::string included = find_included(rest, file, place, depth);
+              std::istringstream stream(read_file(included));
               read_statements(stream, included, path, statements, depth + 1);
             }
           else
@@ -474,14 +524,7 @@ namespace mitre::base
                             const std::string &file_name,
                             const std::function<void(ParameterHandler &)> &declare)
   {
-    std::error_code error;
-    AssertThrow(std::filesystem::is_regular_file(file_name, error),
-                UserError("There is no parameter file '" + file_name + "'."));
-    std::ifstream file(file_name);
-    AssertThrow(file, UserError("Cannot read the parameter file '" + file_name + "'."));
-    std::stringstream text;
-    text << file.rdbuf();
-    parse_parameter_text(prm, text.str(), file_name, declare);
+    parse_parameter_text(prm, read_file(file_name), file_name, declare);
   }
 
 
@@ -495,6 +538,12 @@ namespace mitre::base
     std::vector<Statement> statements;
     read_statements(stream, name, path, statements, 0);
     parse_statements(statements, prm, declare);
+  }
+
+
+  std::string expand_includes(const std::string &file_name)
+  {
+    return expand_includes(file_name, 0);
   }
 
 

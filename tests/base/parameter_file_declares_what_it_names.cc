@@ -94,6 +94,15 @@ main()
       parse_parameter_file(prm, "case/parameters/run.prm", declare);
       show(prm);
 
+      // The same with all that the file includes in one text.
+      const std::string text = expand_includes("case/parameters/run.prm");
+      std::cout << (text.find("include") == std::string::npos ? "expanded" : "includes")
+                << std::endl;
+      std::ofstream("case/parameters/expanded.prm") << text;
+      ParameterHandler expanded;
+      parse_parameter_file(expanded, "case/parameters/expanded.prm", declare);
+      show(expanded);
+
       ParameterHandler defaults;
       declare(defaults);
       show(defaults);

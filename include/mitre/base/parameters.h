@@ -68,6 +68,14 @@ namespace mitre::base
 
 
   /**
+   * The text of a parameter file in which each included file stands in the place of its
+   * <code>include</code>, between comments that name it: what a run has been told, in one
+   * file. Throws UserError if a file is not there.
+   */
+  std::string expand_includes(const std::string &file_name);
+
+
+  /**
    * Declare an entry whose value decides what else there is to declare, in the subsection
    * of @p prm that has been entered. Returns the value that the parameter file gives it;
    * @p default_value if it gives none, if the value does not match @p pattern (which
