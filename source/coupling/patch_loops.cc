@@ -1,9 +1,8 @@
 #if defined(__GNUC__) && !defined(__clang__)
-// From -O2 on, gcc 12 makes wrong code of this file (velocities of zero, or of shifted
-// points; the cause is not known, and the address and undefined behaviour sanitizers find
-// nothing). With -O1 the tests of coupling pass. The vectors are written out, so that little
-// is lost.
-#  pragma GCC optimize("O1", "no-strict-aliasing", "no-unroll-loops")
+// The choice of induction variables by gcc 12.2 (-O2 and above) makes wrong addresses in
+// the loops over points: velocities come out as zero or as those of other points. clang,
+// -O1, and -fno-ivopts all give the right ones.
+#  pragma GCC optimize("no-ivopts")
 #endif
 
 #include <algorithm>
@@ -208,17 +207,35 @@ namespace mitre::coupling
     }
 
 
+    // In what follows the component is a template argument, so that which of the two sets
+    // of weights a direction takes is known to the compiler.
+
+    /// Calls @p function with the components 0, .., dim - 1 as constants.
+    template <int dim, typename Function>
+    inline void for_each_component(const Function &function)
+    {
+      function(std::integral_constant<int, 0>());
+      function(std::integral_constant<int, 1>());
+      if constexpr (dim == 3)
+        function(std::integral_constant<int, 2>());
+    }
+
+
     /// Offset in the array of component c of the first of the 4^dim values at point i.
-    template <int dim>
+    template <int dim, int c>
     inline std::size_t first_entry(const Chunk<dim> &chunk,
                                    const std::array<unsigned int, dim> &extents,
-                                   const int c,
                                    const unsigned int i)
     {
-      std::size_t entry = chunk.index[dim - 1][c == dim - 1 ? 0 : 1][i];
-      for (int d = dim - 2; d >= 0; --d)
-        entry = entry * extents[d] + chunk.index[d][c == d ? 0 : 1][i];
-      return entry;
+      const std::size_t x = chunk.index[0][c == 0 ? 0 : 1][i];
+      const std::size_t y = chunk.index[1][c == 1 ? 0 : 1][i];
+      if constexpr (dim == 2)
+        return x + extents[0] * y;
+      else
+        {
+          const std::size_t z = chunk.index[2][c == 2 ? 0 : 1][i];
+          return x + extents[0] * (y + extents[1] * z);
+        }
     }
 
 
@@ -251,32 +268,32 @@ namespace mitre::coupling
     template <int dim>
     inline void interpolate_chunk(const PaddedPatch<dim> &velocity, Chunk<dim> &chunk)
     {
-      for (int c = 0; c < dim; ++c)
-        {
-          const auto &extents         = velocity.extents[c];
-          const unsigned int stride_y = extents[0], stride_z = extents[0] * extents[1];
-          const double *values = velocity.values[c].data();
-          for (unsigned int i = 0; i < chunk.n_points; ++i)
-            {
-              const double *corner    = values + first_entry<dim>(chunk, extents, c, i);
-              const double *weights_y = chunk.weights[i][1][c == 1 ? 0 : 1];
+      for_each_component<dim>([&](const auto component) {
+        constexpr int c             = decltype(component)::value;
+        const auto &extents         = velocity.extents[c];
+        const unsigned int stride_y = extents[0], stride_z = extents[0] * extents[1];
+        const double *values        = velocity.values[c].data();
+        const unsigned int n_points = chunk.n_points;
+        for (unsigned int i = 0; i < n_points; ++i)
+          {
+            const double *corner    = values + first_entry<dim, c>(chunk, extents, i);
+            const double *weights_y = chunk.weights[i][1][c == 1 ? 0 : 1];
 
-              FourDoubles sum = sum_of_rows(corner, stride_y, weights_y);
-              if constexpr (dim == 3)
-                {
-                  const double *weights_z = chunk.weights[i][2][c == 2 ? 0 : 1];
-                  sum *= weights_z[0];
-                  sum +=
-                    sum_of_rows(corner + stride_z, stride_y, weights_y) * weights_z[1];
-                  sum += sum_of_rows(corner + 2 * stride_z, stride_y, weights_y) *
-                         weights_z[2];
-                  sum += sum_of_rows(corner + 3 * stride_z, stride_y, weights_y) *
-                         weights_z[3];
-                }
-              sum *= load<FourDoubles>(chunk.weights[i][0][c == 0 ? 0 : 1]);
-              chunk.values[c][i] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
-            }
-        }
+            FourDoubles sum = sum_of_rows(corner, stride_y, weights_y);
+            if constexpr (dim == 3)
+              {
+                const double *weights_z = chunk.weights[i][2][c == 2 ? 0 : 1];
+                sum *= weights_z[0];
+                sum += sum_of_rows(corner + stride_z, stride_y, weights_y) * weights_z[1];
+                sum +=
+                  sum_of_rows(corner + 2 * stride_z, stride_y, weights_y) * weights_z[2];
+                sum +=
+                  sum_of_rows(corner + 3 * stride_z, stride_y, weights_y) * weights_z[3];
+              }
+            sum *= load<FourDoubles>(chunk.weights[i][0][c == 0 ? 0 : 1]);
+            chunk.values[c][i] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+          }
+      });
     }
 
 
@@ -284,33 +301,33 @@ namespace mitre::coupling
     template <int dim>
     inline void spread_chunk(const Chunk<dim> &chunk, PaddedPatch<dim> &force)
     {
-      for (int c = 0; c < dim; ++c)
-        {
-          const auto &extents         = force.extents[c];
-          const unsigned int stride_y = extents[0], stride_z = extents[0] * extents[1];
-          double *values = force.values[c].data();
-          for (unsigned int i = 0; i < chunk.n_points; ++i)
-            {
-              double *corner          = values + first_entry<dim>(chunk, extents, c, i);
-              const double *weights_y = chunk.weights[i][1][c == 1 ? 0 : 1];
-              const FourDoubles row =
-                load<FourDoubles>(chunk.weights[i][0][c == 0 ? 0 : 1]) *
-                chunk.values[c][i];
+      for_each_component<dim>([&](const auto component) {
+        constexpr int c             = decltype(component)::value;
+        const auto &extents         = force.extents[c];
+        const unsigned int stride_y = extents[0], stride_z = extents[0] * extents[1];
+        double *values              = force.values[c].data();
+        const unsigned int n_points = chunk.n_points;
+        for (unsigned int i = 0; i < n_points; ++i)
+          {
+            double *corner          = values + first_entry<dim, c>(chunk, extents, i);
+            const double *weights_y = chunk.weights[i][1][c == 1 ? 0 : 1];
+            const FourDoubles row =
+              load<FourDoubles>(chunk.weights[i][0][c == 0 ? 0 : 1]) * chunk.values[c][i];
 
-              if constexpr (dim == 2)
-                add_to_rows(corner, stride_y, weights_y, row);
-              else
-                {
-                  const double *weights_z = chunk.weights[i][2][c == 2 ? 0 : 1];
-                  add_to_rows(corner, stride_y, weights_y, row * weights_z[0]);
-                  add_to_rows(corner + stride_z, stride_y, weights_y, row * weights_z[1]);
-                  add_to_rows(
-                    corner + 2 * stride_z, stride_y, weights_y, row * weights_z[2]);
-                  add_to_rows(
-                    corner + 3 * stride_z, stride_y, weights_y, row * weights_z[3]);
-                }
-            }
-        }
+            if constexpr (dim == 2)
+              add_to_rows(corner, stride_y, weights_y, row);
+            else
+              {
+                const double *weights_z = chunk.weights[i][2][c == 2 ? 0 : 1];
+                add_to_rows(corner, stride_y, weights_y, row * weights_z[0]);
+                add_to_rows(corner + stride_z, stride_y, weights_y, row * weights_z[1]);
+                add_to_rows(
+                  corner + 2 * stride_z, stride_y, weights_y, row * weights_z[2]);
+                add_to_rows(
+                  corner + 3 * stride_z, stride_y, weights_y, row * weights_z[3]);
+              }
+          }
+      });
     }
 
 
