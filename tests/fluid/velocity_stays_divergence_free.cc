@@ -67,7 +67,6 @@ check(const std::string &periodic, const bool open, const unsigned int levels)
       step_divergence =
         std::max(step_divergence, relative() / std::sqrt(flow.velocity().size()));
     }
-  std::cerr << step_divergence << " " << regrid_divergence << std::endl;
   out() << dim << "D, " << (periodic.empty() ? "not periodic" : "periodic " + periodic)
         << (open ? ", open" : "") << ": grid changes " << n_changes << ", after steps "
         << below(step_divergence, 2e-9) << ", after changes "
