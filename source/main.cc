@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <mitre/base/exceptions.h>
+#include <mitre/base/parameter_reference.h>
 #include <mitre/base/parameters.h>
 #include <mitre/simulation/simulation.h>
 
@@ -26,6 +27,9 @@ namespace
     "  --print-parameters   print all parameters with their defaults and explanations; "
     "if\n"
     "                       RUN.prm is given, those of its parts and conditions as well\n"
+    "  --parameter-reference  print all parameters, with one part, condition and so on "
+    "of\n"
+    "                       each kind, as Markdown\n"
     "  --help               print this\n";
 
   enum class Mode
@@ -74,6 +78,18 @@ namespace
           mode = Mode::validate;
         else if (argument == "--print-parameters")
           mode = Mode::print_parameters;
+        else if (argument == "--parameter-reference")
+          {
+            dealii::ParameterHandler prm;
+            base::parse_parameter_text(
+              prm,
+              simulation::Simulation<3>::example_of_all_plugins(),
+              "all plugins",
+              [](dealii::ParameterHandler &p) { declare(p); });
+            if (root)
+              base::write_parameter_reference(std::cout, prm, 3);
+            return 0;
+          }
         else if (argument == "--help" || argument == "-h")
           {
             if (root)

@@ -5,6 +5,7 @@
 #include <string>
 
 #include <mitre/base/exceptions.h>
+#include <mitre/base/parameter_reference.h>
 #include <mitre/base/parameters.h>
 #include <mitre/geometry/mitral_valve.h>
 
@@ -15,6 +16,8 @@ namespace
                       "       mitre-geometry --print-parameters\n"
                       "                                     print all parameters with "
                       "defaults and help texts\n"
+                      "       mitre-geometry --parameter-reference\n"
+                      "                                     the same as Markdown\n"
                       "       mitre-geometry --help         print this text\n"
                       "\n"
                       "Writes leaflets.msh, chordae.msh, disc.msh and tube.msh (gmsh, "
@@ -46,6 +49,12 @@ main(int argc, char **argv)
         {
           MitralValveParameters::declare_parameters(prm);
           prm.print_parameters(std::cout, dealii::ParameterHandler::PRM);
+          return 0;
+        }
+      if (argument == "--parameter-reference")
+        {
+          MitralValveParameters::declare_parameters(prm);
+          mitre::base::write_parameter_reference(std::cout, prm, 3);
           return 0;
         }
       if (!argument.empty() && argument[0] == '-')

@@ -166,9 +166,20 @@ namespace mitre::fluid
     rhs.add(1., force);
     for (const auto &face : velocity_space->open_faces())
       {
-        const double h = patch_grid.patch(face.patch).h[face.side / 2];
-        const double outside =
-          boundary_conditions.condition(face.condition).pressure(face.x, time + 0.5 * dt);
+        const double h        = patch_grid.patch(face.patch).h[face.side / 2];
+        const auto &condition = boundary_conditions.condition(face.condition);
+        double outside        = condition.pressure(face.x, time + 0.5 * dt);
+        const double beta     = condition.backflow_stabilisation();
+        if (beta > 0.)
+          {
+            double inward = u.local_element(face.dof);
+            if (n_steps_since_change >= 2)
+              inward += 0.5 * (inward - u_old.local_element(face.dof));
+            if (face.side % 2 == 1)
+              inward = -inward;
+            if (inward > 0.)
+              outside -= 0.5 * beta * parameters.density * inward * inward;
+          }
         rhs.local_element(face.dof) += (face.side % 2 == 0 ? 2. : -2.) * outside / h;
       }
     velocity_space->zero_fixed_faces(rhs);

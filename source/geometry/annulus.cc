@@ -62,6 +62,15 @@ namespace mitre::geometry
   }
 
 
+  Vector3 Annulus::outward_normal(const double angle) const
+  {
+    Vector3 normal;
+    normal[1] = std::cos(angle) / semi_axis_y;
+    normal[2] = std::sin(angle) / semi_axis_z;
+    return normal / normal.norm();
+  }
+
+
   double Annulus::angle(const double fraction) const
   {
     const double f     = fraction - half_anterior_fraction;

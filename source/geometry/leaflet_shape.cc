@@ -139,6 +139,13 @@ namespace mitre::geometry
   }
 
 
+  Point3 LeafletShape::root(const double phi, const double distance) const
+  {
+    const double angle = ring.angle(phi);
+    return ring.point(angle) + distance * ring.outward_normal(angle);
+  }
+
+
   double LeafletShape::span(const double phi) const
   {
     const auto [leaflet, s] = position(phi);

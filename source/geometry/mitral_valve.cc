@@ -78,19 +78,35 @@ namespace mitre::geometry
     for (std::size_t i = 0; i + 1 < phi.size(); ++i)
       mean_length += shape.length(phi[i]) / (phi.size() - 1);
 
+    // v is -1 at the outer end of the root, 0 at the annulus, 1 at the free edge.
+    const unsigned int n_root =
+      parameters.root_length > 0 ? count(parameters.root_length, size, 1) : 0;
+    const unsigned int n_free = count(mean_length, size, 2);
+    std::vector<double> v;
+    for (unsigned int j = 0; j < n_root; ++j)
+      v.push_back(-1 + double(j) / n_root);
+    for (unsigned int j = 0; j <= n_free; ++j)
+      v.push_back(double(j) / n_free);
+
     BlockLayout layout;
     layout.n_cells = {
-      {n_anterior + n_posterior, count(mean_length, size, 2), parameters.leaflet_layers}};
+      {n_anterior + n_posterior, n_root + n_free, parameters.leaflet_layers}};
     layout.periodic        = true;
     layout.fibre_direction = 0;
-    layout.material_id     = [&](const unsigned int i) {
-      return i < n_anterior ? anterior_leaflet : posterior_leaflet;
+    layout.material_id     = [&](const unsigned int i, const unsigned int j) {
+      return j < n_root       ? leaflet_root
+                 : i < n_anterior ? anterior_leaflet
+                                  : posterior_leaflet;
     };
     TetMesh mesh = build_shell(
-      layout, phi, parameters.leaflet_thickness, [&](const double p, const double v) {
-        return closed ? shape.closed(p, v) : shape.start(p, v);
+      layout, phi, v, parameters.leaflet_thickness, [&](const double p, const double at) {
+        return at < 0   ? shape.root(p, -at * parameters.root_length)
+               : closed ? shape.closed(p, at)
+                        : shape.start(p, at);
       });
     mesh.materials = {{anterior_leaflet, "anterior"}, {posterior_leaflet, "posterior"}};
+    if (n_root > 0)
+      mesh.materials.emplace_back(leaflet_root, "root");
     return mesh;
   }
 
@@ -100,7 +116,8 @@ namespace mitre::geometry
   {
     TetMesh mesh;
     mesh.materials = {{anterior_chordae, "anterior_chordae"},
-                      {posterior_chordae, "posterior_chordae"}};
+                      {posterior_chordae, "posterior_chordae"},
+                      {chordal_rib, "ribs"}};
     for (const Chord &chord : chords)
       {
         BlockLayout layout;
@@ -108,9 +125,10 @@ namespace mitre::geometry
                                    parameters.chord_cells_across,
                                    parameters.chord_cells_across}};
         layout.fibre_direction = 0;
-        layout.material_id     = [&](unsigned int) {
-          return chord.leaflet == Leaflet::anterior ? anterior_chordae
-                                                        : posterior_chordae;
+        layout.material_id     = [&](const unsigned int i, unsigned int) {
+          return i >= chord.insertion_section         ? chordal_rib
+                     : chord.leaflet == Leaflet::anterior ? anterior_chordae
+                                                          : posterior_chordae;
         };
         mesh.append(build_rod(layout, chord.sections));
       }
@@ -123,19 +141,14 @@ namespace mitre::geometry
     const double outer =
       0.5 * (parameters.tube_inner_diameter + parameters.tube_thickness);
     const auto surface = [&](const double u, const double v) {
-      const double angle = 2 * pi * u;
-      const Point3 ring  = annulus.point(angle);
-      // Unit normal of the annulus' projection, which points outward.
-      double ny      = std::cos(angle) / parameters.annulus_ap_diameter;
-      double nz      = std::sin(angle) / parameters.annulus_comm_diameter;
-      const double n = std::hypot(ny, nz);
-      ny /= n;
-      nz /= n;
-      const double y0 = ring[1] - parameters.disc_overlap * ny;
-      const double z0 = ring[2] - parameters.disc_overlap * nz;
-      const double y1 = parameters.axis_y + outer * std::cos(angle);
-      const double z1 = parameters.axis_z + outer * std::sin(angle);
-      const double w  = v * v * (3 - 2 * v);
+      const double angle   = 2 * pi * u;
+      const Point3 ring    = annulus.point(angle);
+      const Vector3 normal = annulus.outward_normal(angle);
+      const double y0      = ring[1] - parameters.disc_overlap * normal[1];
+      const double z0      = ring[2] - parameters.disc_overlap * normal[2];
+      const double y1      = parameters.axis_y + outer * std::cos(angle);
+      const double z1      = parameters.axis_z + outer * std::sin(angle);
+      const double w       = v * v * (3 - 2 * v);
       return Point3((1 - w) * ring[0] + w * parameters.annulus_x - parameters.disc_shift,
                     (1 - v) * y0 + v * y1,
                     (1 - v) * z0 + v * z1);
@@ -148,11 +161,13 @@ namespace mitre::geometry
                            count(width, parameters.disc_element_size, 2),
                            parameters.disc_layers}};
     layout.periodic    = true;
-    layout.material_id = [](unsigned int) { return housing_disc; };
-    std::vector<double> u(layout.n_cells[0] + 1);
+    layout.material_id = [](unsigned int, unsigned int) { return housing_disc; };
+    std::vector<double> u(layout.n_cells[0] + 1), v(layout.n_cells[1] + 1);
     for (std::size_t i = 0; i < u.size(); ++i)
       u[i] = double(i) / layout.n_cells[0];
-    TetMesh mesh   = build_shell(layout, u, parameters.disc_thickness, surface);
+    for (std::size_t j = 0; j < v.size(); ++j)
+      v[j] = double(j) / layout.n_cells[1];
+    TetMesh mesh   = build_shell(layout, u, v, parameters.disc_thickness, surface);
     mesh.materials = {{housing_disc, "disc"}};
     return mesh;
   }
@@ -168,7 +183,7 @@ namespace mitre::geometry
                            count(parameters.tube_length, parameters.tube_element_size, 1),
                            parameters.tube_layers}};
     layout.periodic    = true;
-    layout.material_id = [](unsigned int) { return tube_wall; };
+    layout.material_id = [](unsigned int, unsigned int) { return tube_wall; };
     TetMesh mesh =
       build_block(layout, [&](unsigned int i, unsigned int j, unsigned int k) {
         const double angle = 2 * pi * i / layout.n_cells[0];

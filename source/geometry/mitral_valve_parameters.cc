@@ -63,6 +63,9 @@ namespace mitre::geometry
          "Edge length to aim at along the leaflets (cm)."},
         {"Leaflets", "Layers", &P::leaflet_layers, 1, 1, 20,
          "Layers of elements through the thickness."},
+        {"Leaflets", "Root length", &P::root_length, 0.25, 0., 1.,
+         "The leaflets reach this far outward past the annulus, inside the disc; this root has a "
+         "material id of its own, by which it can be held (cm)."},
 
         {"Start shape", "Orifice anterior-posterior width", &P::orifice_ap_width, 1.6, 0.1, 6.,
          "Width in y of the ellipse on which the free edge lies when looked at along x (cm)."},

@@ -75,7 +75,7 @@ namespace mitre::geometry
                   }
                 if (o >= 3)
                   std::swap(cell.vertices[2], cell.vertices[3]);
-                cell.material_id = layout.material_id(i);
+                cell.material_id = layout.material_id(i, j);
                 cell.fibre       = fibre;
                 mesh.cells.push_back(cell);
                 const Point3 &x = mesh.vertices[cell.vertices[0]];
@@ -93,22 +93,25 @@ namespace mitre::geometry
 
   TetMesh build_shell(const BlockLayout &layout,
                       const std::vector<double> &u,
+                      const std::vector<double> &v,
                       const double thickness,
                       const std::function<Point3(double, double)> &surface)
   {
     Assert(u.size() == layout.n_cells[0] + 1,
            dealii::ExcDimensionMismatch(u.size(), layout.n_cells[0] + 1));
+    Assert(v.size() == layout.n_cells[1] + 1,
+           dealii::ExcDimensionMismatch(v.size(), layout.n_cells[1] + 1));
     const double eps = 1e-4;
     return build_block(layout, [&](unsigned int i, unsigned int j, unsigned int k) {
-      const double v  = double(j) / layout.n_cells[1];
-      const double v0 = std::max(0., v - eps), v1 = std::min(1., v + eps);
+      const double v0   = std::max(v.front(), v[j] - eps);
+      const double v1   = std::min(v.back(), v[j] + eps);
       const bool open_u = !layout.periodic;
       const double u0   = open_u ? std::max(0., u[i] - eps) : u[i] - eps;
       const double u1   = open_u ? std::min(1., u[i] + eps) : u[i] + eps;
-      Vector3 normal    = dealii::cross_product_3d(surface(u1, v) - surface(u0, v),
+      Vector3 normal    = dealii::cross_product_3d(surface(u1, v[j]) - surface(u0, v[j]),
                                                 surface(u[i], v1) - surface(u[i], v0));
       normal /= normal.norm();
-      return surface(u[i], v) +
+      return surface(u[i], v[j]) +
              (double(k) / layout.n_cells[2] - 0.5) * thickness * normal;
     });
   }

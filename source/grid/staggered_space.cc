@@ -187,6 +187,78 @@ namespace mitre::grid
 
 
   template <int dim>
+  bool StaggeredSpace<dim>::combine_finer(const int level,
+                                          const unsigned int c,
+                                          const Index &index,
+                                          LinearCombination<dim> &result) const
+  {
+    const std::array<std::array<double, 4>, 3> stencils = {
+      {{{-1. / 16., 9. / 16., 9. / 16., -1. / 16.}},
+       {{0., 3. / 8., 3. / 4., -1. / 8.}},
+       {{-1. / 8., 3. / 4., 3. / 8., 0.}}}};
+
+    // Along each direction in turn: the stencil that the other directions' nearest faces
+    // allow.
+    Index base;
+    for (unsigned int d = 0; d < dim; ++d)
+      base[d] = 2 * index[d];
+    const auto find = [&](Index at) {
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const int size = patch_grid.n_patches(level + 1, d) * static_cast<int>(n);
+          if (patch_grid.periodic()[d])
+            at[d] = (at[d] + size) % size;
+          else if (at[d] < 0 || at[d] >= size + (d == c ? 1 : 0))
+            return numbers::invalid_dof_index;
+        }
+      return find_entry(level + 1, c, at);
+    };
+    std::array<std::array<double, 4>, dim> weights;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        if (d == c)
+          {
+            weights[d] = {{0., 1., 0., 0.}};
+            continue;
+          }
+        std::array<bool, 4> there;
+        for (int k = 0; k < 4; ++k)
+          {
+            Index at = base;
+            at[d] += k - 1;
+            there[k] = find(at) != numbers::invalid_dof_index;
+          }
+        if (!there[1] || !there[2] || (!there[0] && !there[3]))
+          return false;
+        weights[d] = stencils[there[0] && there[3] ? 0 : there[3] ? 1 : 2];
+      }
+
+    const std::size_t n_before = result.entries.size();
+    for (unsigned int k = 0; k < (dim == 2 ? 16 : 64); ++k)
+      {
+        double weight = 1.;
+        Index at      = base;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const int step = (k >> (2 * d)) & 3;
+            weight *= weights[d][step];
+            at[d] += step - 1;
+          }
+        if (weight == 0.)
+          continue;
+        const types::global_dof_index entry = find(at);
+        if (entry == numbers::invalid_dof_index)
+          {
+            result.entries.resize(n_before);
+            return false;
+          }
+        result.entries.emplace_back(entry, weight);
+      }
+    return true;
+  }
+
+
+  template <int dim>
   bool StaggeredSpace<dim>::combination(const int level,
                                         const unsigned int c,
                                         Index index,
@@ -250,7 +322,11 @@ namespace mitre::grid
         return true;
       }
 
-    // where leaves are finer: mean over the fine faces that make up the face
+    // where leaves are finer: mean over the fine faces that make up the face, or, where
+    // second differences are to be right, the value that is exact for parabolas
+    if (extension == BoundaryExtension::quadratic &&
+        combine_finer(level, c, index, result))
+      return true;
     {
       constexpr unsigned int n_fine = 1u << (dim - 1);
       std::array<types::global_dof_index, n_fine> fine;

@@ -14,6 +14,7 @@
 #include <mitre/coupling/kernels.h>
 #include <mitre/io/mesh_reader.h>
 #include <mitre/simulation/simulation.h>
+#include <mitre/structure/library.h>
 
 namespace mitre::simulation
 {
@@ -100,6 +101,59 @@ namespace mitre::simulation
                       Patterns::Integer(1),
                       "Time steps between two lines of statistics.csv.");
     prm.leave_subsection();
+  }
+
+
+  namespace
+  {
+    /// A list of names, and a subsection for each in which @p entry has that name.
+    std::string one_of_each(const std::string &list,
+                            const std::string &subsection,
+                            const std::string &entry,
+                            const std::vector<std::string> &names)
+    {
+      std::string all, sections;
+      for (const std::string &name : names)
+        {
+          all += (all.empty() ? "" : ", ") + name;
+          sections += "subsection " + subsection + " " + name + "\n  set " + entry +
+                      " = " + name + "\nend\n";
+        }
+      return "set " + list + " = " + all + "\n" + sections;
+    }
+  } // namespace
+
+
+  template <int dim>
+  std::string Simulation<dim>::example_of_all_plugins()
+  {
+    return "set Dimension = " + std::to_string(dim) +
+           "\n"
+           "subsection Grid\nsubsection Refinement\n"
+           "set Refinement boxes = NAME\n"
+           "end\nend\n"
+           "subsection Boundary conditions\n" +
+           one_of_each("Conditions",
+                       "Condition",
+                       "Type",
+                       fluid::boundary_condition_registry<dim>().names()) +
+           "end\n"
+           "subsection Structure\n"
+           "set Parts = NAME\n"
+           "subsection Part NAME\n" +
+           one_of_each("Materials",
+                       "Material",
+                       "Law",
+                       structure::constitutive_laws<dim>().names()) +
+           one_of_each(
+             "Constraints", "Constraint", "Type", structure::constraints<dim>().names()) +
+           "end\nend\n"
+           "subsection Instruments\n" +
+           one_of_each("Instruments",
+                       "Instrument",
+                       "Type",
+                       instruments::instrument_registry<dim>().names()) +
+           "end\n";
   }
 
 

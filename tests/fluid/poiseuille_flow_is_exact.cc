@@ -4,9 +4,9 @@
 // solver tolerance (1e-10; the claim is 1e-8 of the peak) and a fluid at rest comes to
 // it (with time steps from large to small, as Crank-Nicolson damps the slow parts by
 // large ones and the stiff parts by small ones). With a strip of finer patches along the
-// middle it is not exact: values are carried across its sides with second order, so that
-// the viscous stress there, and with it this flow, is of first order only. The error must
-// be small and fall at least with that order.
+// middle it is not exact, as the velocities on both sides of the interface are
+// differently interpolated; the errors are small and must fall with second order in the
+// velocity and first in the pressure.
 
 #include "fluid_tests.h"
 
@@ -80,10 +80,10 @@ check_refined(const unsigned int n)
 {
   const Result coarse = run<dim>(n, 2, false, {{10, 0.1}, {10, 0.01}});
   const Result fine   = run<dim>(2 * n, 2, false, {{10, 0.1}, {10, 0.01}});
-  out() << dim << "D, refined strip: velocity " << below(coarse.velocity, 4e-3)
-        << ", order " << above(std::log2(coarse.velocity / fine.velocity), 0.95)
+  out() << dim << "D, refined strip: velocity " << below(coarse.velocity, 1e-4)
+        << ", order " << above(std::log2(coarse.velocity / fine.velocity), 1.9)
         << ", pressure " << below(coarse.pressure, 2e-3) << ", order "
-        << above(std::log2(coarse.pressure / fine.pressure), 1.) << std::endl;
+        << above(std::log2(coarse.pressure / fine.pressure), 0.95) << std::endl;
 }
 
 int

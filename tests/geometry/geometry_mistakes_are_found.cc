@@ -20,7 +20,7 @@ namespace
   {
     BlockLayout layout;
     layout.n_cells     = {{n, n, n}};
-    layout.material_id = [](unsigned int) { return 1; };
+    layout.material_id = [](unsigned int, unsigned int) { return 1; };
     return build_block(layout, [&](unsigned int i, unsigned int j, unsigned int k) {
       return Point3(double(i) / n, shift_y + double(j) / n, shift_z + double(k) / n);
     });

@@ -58,7 +58,7 @@ main()
 
   BlockLayout layout;
   layout.n_cells     = {{3, 2, 2}};
-  layout.material_id = [](unsigned int) { return 1; };
+  layout.material_id = [](unsigned int, unsigned int) { return 1; };
   std::vector<RodSection> sections(4);
   for (unsigned int i = 0; i < 4; ++i)
     {

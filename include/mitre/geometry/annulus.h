@@ -47,6 +47,9 @@ namespace mitre::geometry
 
     Point3 point(double angle) const;
 
+    /** Unit normal of the projection along x, which points outward. */
+    Vector3 outward_normal(double angle) const;
+
     /**
      * Angle at a fraction of the annulus' length, counted from the commissure on the -z
      * side through the anterior leaflet, then the posterior one. Not limited to [0, 1].

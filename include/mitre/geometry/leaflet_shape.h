@@ -49,6 +49,10 @@ namespace mitre::geometry
      */
     Point3 closed(double phi, double v) const;
 
+    /** Point at @p distance (cm) outward from the annulus, on the straight continuation
+     * of the leaflet's root. */
+    Point3 root(double phi, double distance) const;
+
     /** Straight distance from the annulus to the coaptation line (cm). */
     double span(double phi) const;
 

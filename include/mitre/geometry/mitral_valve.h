@@ -14,7 +14,9 @@ namespace mitre::geometry
     anterior_chordae  = 3,
     posterior_chordae = 4,
     housing_disc      = 5,
-    tube_wall         = 6
+    tube_wall         = 6,
+    leaflet_root      = 7,
+    chordal_rib       = 8
   };
 
   /** The skirt of both leaflets in the start shape, or in the assumed closed shape (to be

@@ -42,6 +42,7 @@ namespace mitre::geometry
     double leaflet_thickness    = 0;
     double leaflet_element_size = 0;
     unsigned int leaflet_layers = 0;
+    double root_length          = 0;
 
     double orifice_ap_width   = 0;
     double orifice_comm_width = 0;

@@ -44,8 +44,8 @@ namespace mitre::geometry
     bool periodic = false;
     /** Direction of the fibres, 0, 1 or 2, or -1 for none. */
     int fibre_direction = -1;
-    /** Material id of the hexahedra with the first index i. */
-    std::function<int(unsigned int i)> material_id;
+    /** Material id of the hexahedra with the first two indices i and j. */
+    std::function<int(unsigned int i, unsigned int j)> material_id;
   };
 
   /**
@@ -63,13 +63,14 @@ namespace mitre::geometry
     const std::function<Point3(unsigned int, unsigned int, unsigned int)> &point);
 
   /**
-   * Shell around the mid surface @p surface(u, v), (u, v) in [0, 1]^2: node (i, j, k)
-   * lies at surface(u_i, v_j) + (k/n_k - 1/2) thickness n, with the unit normal n = d/du
-   * x d/dv from central differences. @p u holds the n_cells[0] + 1 values u_i; v_j is
-   * evenly spaced.
+   * Shell around the mid surface @p surface(u, v): node (i, j, k) lies at surface(u_i,
+   * v_j) + (k/n_k - 1/2) thickness n, with the unit normal n = d/du x d/dv from central
+   * differences. @p u and @p v hold the n_cells[0] + 1 and n_cells[1] + 1 values u_i and
+   * v_j, both ascending.
    */
   TetMesh build_shell(const BlockLayout &layout,
                       const std::vector<double> &u,
+                      const std::vector<double> &v,
                       double thickness,
                       const std::function<Point3(double, double)> &surface);
 

@@ -291,6 +291,16 @@ namespace mitre::grid
     dealii::types::global_dof_index
     find_entry(const int level, const unsigned int c, const Index &index) const;
 
+    /**
+     * The value of a face of @p level where leaves are one level finer, by interpolation
+     * along the face that is exact for parabolas (with one-sided stencils next to where
+     * the finer leaves end). False if there are not enough finer faces.
+     */
+    bool combine_finer(const int level,
+                       const unsigned int c,
+                       const Index &index,
+                       LinearCombination<dim> &result) const;
+
     bool interpolate_from_coarser(const int level,
                                   const unsigned int c,
                                   const Index &index,

@@ -37,6 +37,13 @@ namespace mitre::simulation
     static void declare_parameters(dealii::ParameterHandler &prm);
 
     /**
+     * The text of a parameter file with one boundary condition, constitutive law,
+     * constraint and instrument of each kind, named like it: what the parameter reference
+     * is made from.
+     */
+    static std::string example_of_all_plugins();
+
+    /**
      * Reads the parameters and the meshes and builds the grid; nothing is written yet.
      * Throws base::UserError for anything that cannot work.
      */

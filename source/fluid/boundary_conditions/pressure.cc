@@ -31,6 +31,14 @@ namespace mitre::fluid
       Patterns::Selection("periodic|clamped"),
       "What holds after the end of the table: it repeats, or its last value "
       "stays.");
+    prm.declare_entry(
+      "Backflow stabilisation",
+      "0",
+      Patterns::Double(0., 2.),
+      "beta: where the fluid flows in, the pressure is lower than given by beta "
+      "rho/2 times the square of the normal velocity. With 1 the given pressure is that "
+      "of a reservoir at rest, and jets into the domain cannot feed themselves; with 0 "
+      "it is the pressure in the boundary itself.");
   }
 
 
@@ -40,6 +48,7 @@ namespace mitre::fluid
   {
     expression = base::Expression<dim>(prm.get("Pressure"),
                                        "Boundary conditions / " + name + " / Pressure");
+    beta       = prm.get_double("Backflow stabilisation");
     table.reset();
     const std::string file = prm.get("Table file");
     if (!file.empty())

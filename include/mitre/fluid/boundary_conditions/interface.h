@@ -48,6 +48,13 @@ namespace mitre::fluid
     {
       return 0.;
     }
+
+    /// beta of the pressure -beta rho/2 u_n^2 that is added where the fluid flows in
+    /// through an open boundary (see PressureCondition).
+    virtual double backflow_stabilisation() const
+    {
+      return 0.;
+    }
   };
 
 

@@ -12,6 +12,12 @@ namespace mitre::fluid
    * velocity. (On such a boundary the normal viscous stress vanishes, because the
    * divergence and the tangential derivatives of the tangential velocity do.) The
    * pressure is an expression of place and time, or a column of a table over time.
+   *
+   * Backflow stabilisation lowers the pressure by beta rho/2 u_n^2 where the normal
+   * velocity u_n points into the domain. For beta = 1 the kinetic energy that comes in
+   * with the fluid is then matched by the work of the boundary, so that it cannot grow
+   * without a difference of the given pressures: Bruneau and Fabrie, Int. J. Numer.
+   * Meth. Fluids 19 (1994) 693; Esmaily Moghadam et al., Comput. Mech. 48 (2011) 277.
    */
   template <int dim>
   class PressureCondition : public BoundaryCondition<dim>
@@ -28,10 +34,16 @@ namespace mitre::fluid
 
     double pressure(const dealii::Point<dim> &x, const double t) const override;
 
+    double backflow_stabilisation() const override
+    {
+      return beta;
+    }
+
   private:
     base::Expression<dim> expression;
     std::shared_ptr<base::TimeTable> table;
     unsigned int column = 0;
+    double beta         = 0.;
   };
 } // namespace mitre::fluid
 
