@@ -174,7 +174,7 @@ namespace mitre::fluid
           {
             double inward = u.local_element(face.dof);
             if (n_steps_since_change >= 2)
-              inward += 0.5 * (inward - u_old.local_element(face.dof));
+              inward += 0.5 * dt / previous_dt * (inward - u_old.local_element(face.dof));
             if (face.side % 2 == 1)
               inward = -inward;
             if (inward > 0.)
@@ -229,16 +229,17 @@ namespace mitre::fluid
     else
       {
         // (2.16): extrapolation from the last two times
+        const double ratio = dt / previous_dt;
         compute_advection(advection_new, u, time);
         rhs = advection_new;
-        advection_new.sadd(1.5, -0.5, advection_old);
+        advection_new.sadd(1. + 0.5 * ratio, -0.5 * ratio, advection_old);
         advection_old = rhs;
         u_new         = u;
         p_new         = p;
         if (n_steps_since_change >= 2)
           {
-            u_new.sadd(2., -1., u_old);
-            p_new.sadd(2., -1., p_old);
+            u_new.sadd(1. + ratio, -ratio, u_old);
+            p_new.sadd(1. + ratio, -ratio, p_old);
           }
       }
     const unsigned int iterations = solve(u_new, p_new, advection_new, force, time, dt);
@@ -248,8 +249,38 @@ namespace mitre::fluid
     p.swap(p_new);
     has_history   = true;
     has_predicted = false;
+    previous_dt   = dt;
     ++n_steps_since_change;
     return iterations;
+  }
+
+
+  template <int dim>
+  void NavierStokes<dim>::save(State &state) const
+  {
+    state.u                    = u;
+    state.u_old                = u_old;
+    state.p                    = p;
+    state.p_old                = p_old;
+    state.advection_old        = advection_old;
+    state.previous_dt          = previous_dt;
+    state.has_history          = has_history;
+    state.n_steps_since_change = n_steps_since_change;
+  }
+
+
+  template <int dim>
+  void NavierStokes<dim>::restore(const State &state)
+  {
+    u                    = state.u;
+    u_old                = state.u_old;
+    p                    = state.p;
+    p_old                = state.p_old;
+    advection_old        = state.advection_old;
+    previous_dt          = state.previous_dt;
+    has_history          = state.has_history;
+    has_predicted        = false;
+    n_steps_since_change = state.n_steps_since_change;
   }
 
 

@@ -43,13 +43,32 @@ namespace mitre::simulation
 
     prm.enter_subsection("Time");
     prm.declare_entry("End time", "1", Patterns::Double(0.), "Time at the end [s].");
-    prm.declare_entry("Time step", "1e-3", Patterns::Double(1e-15), "Time step [s].");
+    prm.declare_entry("Time step",
+                      "1e-3",
+                      Patterns::Double(1e-15),
+                      "Length of all steps [s], or, with a \"Courant number\", of the "
+                      "longest.");
+    prm.declare_entry("Courant number",
+                      "0",
+                      Patterns::Double(0.),
+                      "0: all steps have the same length. Otherwise each has the length "
+                      "in which the flow "
+                      "passes this many cells, as far as \"Time step\" allows; it grows "
+                      "by at most a tenth "
+                      "a step.");
+    prm.declare_entry(
+      "Smallest time step",
+      "1e-9",
+      Patterns::Double(1e-15),
+      "With a \"Courant number\": the run stops with an error when a step "
+      "would have to be shorter than this [s].");
     prm.declare_entry(
       "Maximum Courant number",
       "1",
       Patterns::Double(0.),
-      "The run stops with an error if the flow passes more cells than this "
-      "in a step.");
+      "The run stops with an error if the flow passes more cells than this in a step; "
+      "with "
+      "a \"Courant number\" to aim at, the step is repeated at half its length instead.");
     prm.leave_subsection();
 
     prm.enter_subsection("Grid");
@@ -169,8 +188,15 @@ namespace mitre::simulation
 
     prm.enter_subsection("Time");
     end_time               = prm.get_double("End time");
-    time_step              = prm.get_double("Time step");
+    largest_time_step      = prm.get_double("Time step");
+    smallest_time_step     = prm.get_double("Smallest time step");
+    wanted_courant_number  = prm.get_double("Courant number");
     maximum_courant_number = prm.get_double("Maximum Courant number");
+    if (wanted_courant_number > maximum_courant_number)
+      throw base::UserError("\"Time / Courant number\" is " + prm.get("Courant number") +
+                            ", more than the \"Maximum Courant number\" of " +
+                            prm.get("Maximum Courant number") +
+                            " at which steps are repeated.");
     prm.leave_subsection();
 
     prm.enter_subsection("Output");
@@ -363,9 +389,8 @@ namespace mitre::simulation
 
 
   template <int dim>
-  void Simulation<dim>::advance()
+  void Simulation<dim>::step(const double dt)
   {
-    const double dt = time_step;
     if (parts.empty())
       {
         grid_force      = 0.;
@@ -408,21 +433,88 @@ namespace mitre::simulation
         for (Part &part : parts)
           part.X.add(dt, part.U);
       }
-    ++step_number;
-    current_time = start_time + step_number * time_step;
-
     courant_number = fluid->operators().max_courant_number(fluid->velocity(), dt);
-    if (!(courant_number <= maximum_courant_number))
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::check_courant_number() const
+  {
+    if (courant_number <= maximum_courant_number)
+      return;
+    std::ostringstream message;
+    message << "At t = " << current_time + time_step << " s the flow passes "
+            << courant_number << " cells in a time step of " << time_step
+            << " s, more than the " << maximum_courant_number
+            << " that \"Time / Maximum Courant number\" allows";
+    if (wanted_courant_number > 0.)
+      message << ", and half of it would be shorter than the \"Smallest time step\" of "
+              << smallest_time_step << " s";
+    message
+      << ". Usually the time step is too large for the stiffness of a part or of its "
+         "constraints; try half of it.";
+    throw base::UserError(message.str());
+  }
+
+
+  template <int dim>
+  double Simulation<dim>::next_time_step() const
+  {
+    if (wanted_courant_number == 0.)
+      return largest_time_step;
+    double dt = largest_time_step;
+    if (step_number > 0)
+      dt = std::min(dt, 1.1 * time_step);
+    const double courant = fluid->operators().max_courant_number(fluid->velocity(), dt);
+    if (courant > wanted_courant_number)
+      dt *= wanted_courant_number / courant;
+
+    // The end is reached by a step of the same length as the others, or a shorter one.
+    const double rest = end_time - current_time;
+    return rest < dt * (1. + 1e-9) ? rest : rest < 2. * dt ? 0.5 * rest : dt;
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::advance()
+  {
+    time_step = next_time_step();
+    if (wanted_courant_number == 0.)
       {
-        std::ostringstream message;
-        message
-          << "At t = " << current_time << " s the flow passes " << courant_number
-          << " cells in a time step of " << dt << " s, more than the "
-          << maximum_courant_number
-          << " that \"Time / Maximum Courant number\" allows. Usually the time step is "
-             "too large for the stiffness of a part or of its constraints; try half "
-             "of it.";
-        throw base::UserError(message.str());
+        step(time_step);
+        check_courant_number();
+        ++step_number;
+        current_time = start_time + step_number * time_step;
+      }
+    else
+      {
+        typename fluid::NavierStokes<dim>::State state;
+        fluid->save(state);
+        std::vector<structure::VectorType> X, U;
+        for (const Part &part : parts)
+          {
+            X.push_back(part.X);
+            U.push_back(part.U);
+          }
+        step(time_step);
+        while (!(courant_number <= maximum_courant_number))
+          {
+            if (0.5 * time_step < smallest_time_step)
+              check_courant_number();
+            time_step *= 0.5;
+            ++n_repeated;
+            fluid->restore(state);
+            for (unsigned int part = 0; part < parts.size(); ++part)
+              {
+                parts[part].X = X[part];
+                parts[part].U = U[part];
+              }
+            step(time_step);
+          }
+        ++step_number;
+        current_time += time_step;
+        if (end_time - current_time < 1e-9 * time_step)
+          current_time = end_time;
       }
 
     if (!parts.empty() && refinement.interval() > 0 &&
@@ -438,7 +530,7 @@ namespace mitre::simulation
   {
     instruments::Observation<dim> result;
     result.time  = current_time;
-    result.dt    = step_number == 0 ? 0. : time_step * statistics_interval;
+    result.dt    = current_time - last_measured;
     result.fluid = fluid.get();
     for (const Part &part : parts)
       result.parts.push_back({part.body.get(), &part.X, &part.U});
@@ -452,6 +544,7 @@ namespace mitre::simulation
     std::vector<std::string> columns = {"time [s]",
                                         "solver iterations",
                                         "cells",
+                                        "time step [s]",
                                         "Courant number",
                                         "largest divergence [1/s]",
                                         "wall time per step [s]"};
@@ -471,6 +564,7 @@ namespace mitre::simulation
     std::vector<double> values = {current_time,
                                   static_cast<double>(iterations),
                                   static_cast<double>(patch_grid->n_global_cells()),
+                                  time_step,
                                   courant_number,
                                   fluid->operators().max_divergence(fluid->velocity()),
                                   wall_time};
@@ -481,6 +575,7 @@ namespace mitre::simulation
     for (const double value : instruments.measure(observation()))
       values.push_back(value);
     statistics->write(values);
+    last_measured = current_time;
   }
 
 
@@ -511,9 +606,13 @@ namespace mitre::simulation
         out << "  part " << part.body->name() << ": " << mesh.n_elements()
             << " elements, " << mesh.nodes.size() << " nodes (" << mesh.source << ")\n";
       }
-    out << "  " << std::lround((end_time - start_time) / time_step) << " steps of "
-        << time_step << " s to t = " << end_time << " s; output in " << output_folder
-        << std::endl;
+    if (wanted_courant_number > 0.)
+      out << "  steps of at most " << largest_time_step << " s, Courant number "
+          << wanted_courant_number;
+    else
+      out << "  " << std::lround((end_time - start_time) / largest_time_step)
+          << " steps of " << largest_time_step << " s";
+    out << " to t = " << end_time << " s; output in " << output_folder << std::endl;
   }
 
 
@@ -524,9 +623,8 @@ namespace mitre::simulation
       {
         std::error_code error;
         std::filesystem::create_directories(output_folder, error);
-        std::ifstream in(parameter_file);
         std::ofstream copy(std::filesystem::path(output_folder) / "parameters.prm");
-        copy << in.rdbuf();
+        copy << base::expand_includes(parameter_file);
         copy.close();
         AssertThrow(copy.good(),
                     base::UserError(
@@ -547,7 +645,12 @@ namespace mitre::simulation
 
     current_time               = start_time;
     step_number                = 0;
-    const unsigned int n_steps = std::lround((end_time - start_time) / time_step);
+    last_measured              = start_time;
+    const unsigned int n_steps = std::lround((end_time - start_time) / largest_time_step);
+    const auto finished        = [&]() {
+      return wanted_courant_number > 0. ? current_time >= end_time
+                                               : step_number >= n_steps;
+    };
     base::Progress progress(std::cout, start_time, end_time, "s");
 
     unsigned int n_outputs = 0;
@@ -560,13 +663,13 @@ namespace mitre::simulation
 
     double clock                  = wall_clock();
     unsigned int iterations_since = 0, steps_since = 0;
-    while (step_number < n_steps)
+    while (!finished())
       {
         advance();
         iterations_since = std::max(iterations_since, last_iterations);
         ++steps_since;
 
-        if (step_number % statistics_interval == 0 || step_number == n_steps)
+        if (step_number % statistics_interval == 0 || finished())
           {
             const double now = wall_clock();
             measure(iterations_since, (now - clock) / steps_since);
@@ -576,7 +679,7 @@ namespace mitre::simulation
           }
         if (output_interval > 0. &&
             (current_time >= (n_outputs - 1e-6) * output_interval + start_time ||
-             step_number == n_steps))
+             finished()))
           {
             const double begin = wall_clock();
             write_fields();
@@ -594,6 +697,9 @@ namespace mitre::simulation
       }
     if (root)
       progress.finish();
+    if (root && n_repeated > 0)
+      std::cout << n_repeated << " steps were too long and repeated at half their length."
+                << std::endl;
   }
 
 

@@ -34,7 +34,9 @@ namespace mitre::fluid
    *   fluid.advance(t, dt, f(t + dt/2));
    *
    * where predict() computes the provisional velocity (2.20)-(2.21) that the first
-   * step's midpoint advection uses.
+   * step's midpoint advection uses. Steps may differ in length: Adams-Bashforth
+   * extrapolates from the last two times as they are, with the factors 1 + r/2 and -r/2
+   * for steps in the ratio r.
    */
   template <int dim>
   class NavierStokes
@@ -66,6 +68,21 @@ namespace mitre::fluid
      */
     unsigned int
     advance(const double time, const double dt, const grid::VectorType &force);
+
+    /// What a step changes, to be kept by save() and put back by restore().
+    struct State
+    {
+      grid::VectorType u, u_old, p, p_old, advection_old;
+      double previous_dt                = 0.;
+      bool has_history                  = false;
+      unsigned int n_steps_since_change = 0;
+    };
+
+    /// Copies the state, for a step that may have to be repeated.
+    void save(State &state) const;
+
+    /// Goes back to what save() copied; the grid must be the same.
+    void restore(const State &state);
 
     /// Carries the state to a grid with the wanted levels; returns whether it changed.
     bool regrid(const std::function<int(const dealii::BoundingBox<dim> &)> &wanted_level,
@@ -145,7 +162,8 @@ namespace mitre::fluid
     grid::VectorType advection_old;
     grid::VectorType provisional;
     grid::VectorType u_new, p_new, advection_new, rhs, work;
-    double last_dt                     = 0.;
+    double last_dt                     = 0.; ///< what the solver is set up for
+    double previous_dt                 = 0.; ///< length of the last step
     bool has_history                   = false;
     bool has_predicted                 = false;
     unsigned int n_steps_since_change  = 0;

@@ -57,7 +57,9 @@ namespace mitre::simulation
     /// Runs from the start to the end time.
     void run();
 
-    /// One time step, without any output.
+    /// One time step, without any output. With a "Courant number" to aim at, the step
+    /// gets the length that this asks for, and is repeated at half of it if it exceeds
+    /// the largest allowed one.
     void advance();
 
     double time() const
@@ -84,6 +86,9 @@ namespace mitre::simulation
     void read_parts(dealii::ParameterHandler &prm);
     std::function<int(const dealii::BoundingBox<dim> &)> wanted_levels();
     bool regrid();
+    double next_time_step() const;
+    void step(const double dt);
+    void check_courant_number() const;
     void distribute_parts();
     void setup_coupling();
     double largest_displacement_since_regrid() const;
@@ -98,9 +103,10 @@ namespace mitre::simulation
     const std::string parameter_file;
 
     std::string output_folder;
-    double start_time = 0., end_time, time_step, output_interval;
+    double start_time = 0., end_time, output_interval;
+    double largest_time_step, smallest_time_step;
     unsigned int statistics_interval;
-    double maximum_courant_number;
+    double wanted_courant_number, maximum_courant_number;
 
     fluid::FluidParameters fluid_parameters;
     fluid::BoundaryConditions<dim> boundary_conditions;
@@ -122,6 +128,9 @@ namespace mitre::simulation
     unsigned int last_iterations = 0;
     unsigned int n_regrids       = 0;
     double courant_number        = 0.;
+    double time_step             = 0.; ///< of the last step
+    double last_measured         = 0.; ///< time of the last line of statistics
+    unsigned int n_repeated      = 0;  ///< steps that were too long
     grid::VectorType grid_force, middle_velocity;
 
     /// Node positions of each part when the grid was last built, in the order of its
