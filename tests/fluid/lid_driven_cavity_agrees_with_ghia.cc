@@ -59,7 +59,7 @@ main(int argc, char **argv)
   conditions.add("walls", {0, 1, 2}, wall<2>());
   fluid::FluidParameters parameters;
   parameters.viscosity                 = 0.01;
-  parameters.solver.relative_tolerance = 1e-5;
+  parameters.solver.relative_tolerance = 1e-7;
   fluid::NavierStokes<2> flow(patch_grid, conditions, parameters);
   grid::VectorType force;
   double time = 0., change = 0.;
