@@ -13,26 +13,6 @@
 
 using namespace grid_tests;
 
-template <int dim>
-double
-linear(const Point<dim> &x, const unsigned int c)
-{
-  double value = 0.3 + c;
-  for (unsigned int d = 0; d < dim; ++d)
-    value += (1. + d - 0.8 * c) * x[d];
-  return value;
-}
-
-template <int dim>
-double
-quadratic(const Point<dim> &x, const unsigned int c)
-{
-  double value = linear(x, c);
-  for (unsigned int d = 0; d < dim; ++d)
-    value += (0.7 - d + 0.4 * c) * x[d] * x[d] + 0.5 * (c + 1.) * x[d] * x[(d + 1) % dim];
-  return value;
-}
-
 struct Choice
 {
   bool linear, with_boundary;

@@ -118,6 +118,27 @@ namespace grid_tests
     return 2. * (value - std::floor(value)) - 1.;
   }
 
+  /// A linear field of position and component.
+  template <int dim>
+  double linear(const Point<dim> &x, const unsigned int c)
+  {
+    double value = 0.3 + c;
+    for (unsigned int d = 0; d < dim; ++d)
+      value += (1. + d - 0.8 * c) * x[d];
+    return value;
+  }
+
+  /// A quadratic field with mixed terms.
+  template <int dim>
+  double quadratic(const Point<dim> &x, const unsigned int c)
+  {
+    double value = linear(x, c);
+    for (unsigned int d = 0; d < dim; ++d)
+      value +=
+        (0.7 - d + 0.4 * c) * x[d] * x[d] + 0.5 * (c + 1.) * x[d] * x[(d + 1) % dim];
+    return value;
+  }
+
   /// Calls @p operation(entry, patch, component, position) for all entries of this rank.
   template <int dim, typename Operation>
   void for_each_face(const grid::StaggeredSpace<dim> &space, const Operation &operation)
