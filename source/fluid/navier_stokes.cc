@@ -290,6 +290,7 @@ namespace mitre::fluid
     const double time)
   {
     std::unique_ptr<grid::SolutionTransfer<dim>> transfer;
+    bool rebuilt      = false;
     const auto before = [&]() {
       transfer = std::make_unique<grid::SolutionTransfer<dim>>(
         patch_grid,
@@ -304,11 +305,14 @@ namespace mitre::fluid
       const auto old_operators = std::move(stokes_operators);
       const auto old_solver    = std::move(stokes_solver);
       setup();
+      rebuilt = true;
       transfer->finish(*velocity_space, {&u, &advection_old}, {&p});
       transfer.reset();
     };
     const double tolerance = 1e-10;
-    if (!patch_grid.adapt(wanted_level, before, after))
+    patch_grid.adapt(wanted_level, before, after);
+    // also if the forest's balance has made it what it was: the spaces are new
+    if (!rebuilt)
       return false;
     set_fixed_faces(u, time);
     const double speed    = u.linfty_norm();

@@ -2,7 +2,9 @@
 #include <mitre/instruments/flow_meter.h>
 #include <mitre/instruments/instrument.h>
 #include <mitre/instruments/part_extent.h>
+#include <mitre/instruments/part_force.h>
 #include <mitre/instruments/part_volume.h>
+#include <mitre/instruments/pressure_point.h>
 #include <mitre/instruments/pressure_station.h>
 
 namespace mitre::instruments
@@ -16,6 +18,10 @@ namespace mitre::instruments
         "flow meter", "volume flow through a disc, and the volumes that have passed");
       instruments.template add<PressureStation<dim>>("pressure station",
                                                      "mean pressure over a disc");
+      instruments.template add<PressurePoint<dim>>(
+        "pressure point", "pressure at a point, or on the surface of a part");
+      instruments.template add<PartForce<dim>>(
+        "part force", "force of the fluid on a part that is held: drag and lift");
       instruments.template add<PartExtent<dim>>(
         "part extent", "smallest and largest coordinate of a part along an axis");
       instruments.template add<PartVolume<dim>>(

@@ -20,8 +20,19 @@ namespace mitre::simulation
       "Check interval",
       "10",
       Patterns::Integer(0),
-      "Time steps between checks whether the grid has to follow the parts; "
-      "0: it never changes.");
+      "Time steps between checks whether the grid has to follow the parts and "
+      "the vorticity; 0: it never changes.");
+    prm.declare_entry(
+      "Vorticity change",
+      "0",
+      Patterns::Double(0.),
+      "If not 0: patches where vorticity times cell width, the change of the velocity "
+      "across a cell, is larger than this [cm/s] are refined by a level at each check, "
+      "and those where it is less than a third of this are coarsened.");
+    prm.declare_entry("Vorticity level",
+                      "12",
+                      Patterns::Integer(0, 12),
+                      "Finest level that the vorticity may ask for.");
     const auto names =
       base::declare_names(prm,
                           "Refinement boxes",
@@ -51,8 +62,10 @@ namespace mitre::simulation
   template <int dim>
   void Refinement<dim>::parse_parameters(ParameterHandler &prm)
   {
-    buffer_cells   = prm.get_double("Structure buffer");
-    check_interval = prm.get_integer("Check interval");
+    buffer_cells           = prm.get_double("Structure buffer");
+    check_interval         = prm.get_integer("Check interval");
+    largest_change         = prm.get_double("Vorticity change");
+    finest_vorticity_level = prm.get_integer("Vorticity level");
     regions.clear();
     for (const std::string &name : base::parse_names(prm.get("Refinement boxes")))
       {

@@ -12,6 +12,7 @@
 #include <mitre/base/parameters.h>
 #include <mitre/base/progress.h>
 #include <mitre/coupling/kernels.h>
+#include <mitre/fluid/vorticity_map.h>
 #include <mitre/io/mesh_reader.h>
 #include <mitre/simulation/simulation.h>
 #include <mitre/structure/library.h>
@@ -306,8 +307,17 @@ namespace mitre::simulation
     patch_grid->extra_weight = [map = refinement_map](const BoundingBox<dim> &leaf) {
       return static_cast<unsigned int>(std::min(1e6, map->n_points(leaf)));
     };
-    return [this](const BoundingBox<dim> &leaf) {
-      return std::max(refinement.wanted_level(leaf), refinement_map->wanted_level(leaf));
+    std::shared_ptr<fluid::VorticityMap<dim>> vorticity;
+    if (fluid && refinement.vorticity_change() > 0.)
+      vorticity =
+        std::make_shared<fluid::VorticityMap<dim>>(fluid->space(),
+                                                   fluid->velocity(),
+                                                   refinement.vorticity_change(),
+                                                   refinement.vorticity_level());
+    return [this, vorticity](const BoundingBox<dim> &leaf) {
+      const int level =
+        std::max(refinement.wanted_level(leaf), refinement_map->wanted_level(leaf));
+      return vorticity ? std::max(level, vorticity->wanted_level(leaf)) : level;
     };
   }
 
@@ -517,10 +527,10 @@ namespace mitre::simulation
           current_time = end_time;
       }
 
-    if (!parts.empty() && refinement.interval() > 0 &&
-        step_number % refinement.interval() == 0 &&
+    if (refinement.interval() > 0 && step_number % refinement.interval() == 0 &&
         patch_grid->maximum_level() > patch_grid->minimum_level() &&
-        largest_displacement_since_regrid() > 0.5 * refinement.buffer())
+        (refinement.vorticity_change() > 0. ||
+         largest_displacement_since_regrid() > 0.5 * refinement.buffer()))
       regrid();
   }
 
@@ -637,13 +647,22 @@ namespace mitre::simulation
     statistics = std::make_unique<io::StatisticsFile>(
       output_folder + "/statistics.csv", statistics_columns(), communicator);
 
-    fluid->set_velocity(
-      [this](const Point<dim> &x, const unsigned int c) {
-        return initial_velocity[c].value(x);
-      },
-      start_time);
+    const auto set_initial_velocity = [this]() {
+      fluid->set_velocity(
+        [this](const Point<dim> &x, const unsigned int c) {
+          return initial_velocity[c].value(x);
+        },
+        start_time);
+    };
+    current_time = start_time;
+    set_initial_velocity();
+    if (refinement.vorticity_change() > 0.)
+      for (unsigned int level = patch_grid->minimum_level();
+           level < patch_grid->maximum_level() && regrid();
+           ++level)
+        set_initial_velocity();
+    n_regrids = 0;
 
-    current_time               = start_time;
     step_number                = 0;
     last_measured              = start_time;
     const unsigned int n_steps = std::lround((end_time - start_time) / largest_time_step);
@@ -697,6 +716,8 @@ namespace mitre::simulation
       }
     if (root)
       progress.finish();
+    if (root && n_regrids > 0)
+      std::cout << "The grid has been rebuilt " << n_regrids << " times." << std::endl;
     if (root && n_repeated > 0)
       std::cout << n_repeated << " steps were too long and repeated at half their length."
                 << std::endl;

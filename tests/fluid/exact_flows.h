@@ -4,7 +4,11 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/numbers.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
+#include <string>
 
 #include <mitre/fluid/navier_stokes.h>
 
@@ -46,8 +50,30 @@ namespace exact_flows
   struct Errors
   {
     double l2, max;
+    double max_away; ///< away from the sides of the quarter that refine_quarter() refines
     unsigned int iterations;
   };
+
+  /// Distance from the sides of the box (0, 1/2)^dim, of which the unit box has periodic
+  /// images.
+  template <int dim>
+  double distance_from_quarter(const Point<dim> &x)
+  {
+    double inside = 1., outside = 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double y        = x[d] - std::floor(x[d]);
+        const double distance = std::min({std::abs(y), std::abs(y - 0.5), 1. - y});
+        if (y < 0.5)
+          inside = std::min(inside, distance);
+        else
+          {
+            outside += distance * distance;
+            inside = 0.;
+          }
+      }
+    return outside > 0. ? std::sqrt(outside) : inside;
+  }
 
   /// Errors over all faces that are masters.
   template <int dim, typename Exact>
@@ -55,7 +81,7 @@ namespace exact_flows
   compute_errors(const fluid::NavierStokes<dim> &flow, const Exact &exact, const double t)
   {
     const auto &space = flow.space();
-    double square = 0., volume = 0., largest = 0.;
+    double square = 0., volume = 0., largest = 0., largest_away = 0.;
     grid_tests::for_each_face(space,
                               [&](const std::size_t entry,
                                   const unsigned int,
@@ -69,11 +95,14 @@ namespace exact_flows
                                 square += error * error * w;
                                 volume += w;
                                 largest = std::max(largest, std::abs(error));
+                                if (distance_from_quarter(x) > 1. / 8.)
+                                  largest_away = std::max(largest_away, std::abs(error));
                               });
     const MPI_Comm comm = space.grid().communicator();
     return {
       std::sqrt(Utilities::MPI::sum(square, comm) / Utilities::MPI::sum(volume, comm)),
       Utilities::MPI::max(largest, comm),
+      Utilities::MPI::max(largest_away, comm),
       0};
   }
 
@@ -135,7 +164,8 @@ namespace exact_flows
                    const double end_time,
                    const double courant,
                    const double least_l2,
-                   const double least_max)
+                   const double least_max,
+                   const double least_away)
   {
     const double tolerance = 1e-7;
     const Errors coarse    = run<dim>(n, refined, exact, end_time, courant, tolerance);
@@ -144,7 +174,39 @@ namespace exact_flows
                       << grid_tests::above(std::log2(coarse.l2 / fine.l2), least_l2)
                       << ", of the maximum "
                       << grid_tests::above(std::log2(coarse.max / fine.max), least_max)
+                      << ", away from interfaces "
+                      << grid_tests::above(std::log2(coarse.max_away / fine.max_away),
+                                           least_away)
                       << std::endl;
+  }
+
+  /// Prints a table of errors and orders for n, 2n, .. cells a side.
+  template <int dim, typename Exact>
+  void print_table(const std::string &name,
+                   const unsigned int first,
+                   const unsigned int last,
+                   const bool refined,
+                   const Exact &exact,
+                   const double end_time,
+                   const double courant)
+  {
+    Errors before;
+    for (unsigned int n = first; n <= last; n *= 2)
+      {
+        const Errors now  = run<dim>(n, refined, exact, end_time, courant, 1e-7);
+        const auto column = [&](const double value, const double value_before) {
+          std::ostringstream text;
+          text << " | " << std::scientific << std::setprecision(2) << value << " | ";
+          if (n > first)
+            text << std::fixed << std::log2(value_before / value);
+          return text.str();
+        };
+        grid_tests::out() << "| " << name << " | " << (refined ? "refined" : "uniform")
+                          << " | " << n << column(now.l2, before.l2)
+                          << column(now.max, before.max)
+                          << column(now.max_away, before.max_away) << " |" << std::endl;
+        before = now;
+      }
   }
 } // namespace exact_flows
 

@@ -2,8 +2,10 @@
 // in the middle of the cross-section, and over one at y that in the middle at y: the mean
 // over cell columns and the straight line along the axis are exact for linear functions,
 // on any levels, at the sides of patches and at the ends of the box. So is that over a
-// disc around which cells lie symmetrically.
+// disc around which cells lie symmetrically. The pressure at points is exact too,
+// wherever they lie, and at two points outside of the box it is not a number.
 
+#include <mitre/instruments/pressure_point.h>
 #include <mitre/instruments/pressure_station.h>
 
 #include "instrument_tests.h"
@@ -79,6 +81,29 @@ test()
   check("mean over a disc", mean(), pressure(middle), 1e-12);
   disc.radius = 1e-3;
   expect_error(mean);
+
+  unsigned int n_nan = 0;
+  for (const auto &[x, y] : {std::make_pair(0., 0.),
+                             std::make_pair(2., 1.),
+                             std::make_pair(0.5, 0.5),
+                             std::make_pair(0.499, 0.501),
+                             std::make_pair(1.013, 0.27),
+                             std::make_pair(1.5, 0.25),
+                             std::make_pair(-1e-3, 0.5),
+                             std::make_pair(1., 1.001)})
+    {
+      middle[0]          = x;
+      middle[1]          = y;
+      const double found = instruments::compute_pressure_at(middle, flow.patch_grid, p);
+      if (std::isnan(found))
+        ++n_nan;
+      else
+        check("pressure at (" + std::to_string(x) + ", " + std::to_string(y) + ")",
+              found,
+              pressure(middle),
+              1e-12);
+    }
+  check("points outside", n_nan, 2, 0);
 }
 
 int

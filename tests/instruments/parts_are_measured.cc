@@ -3,7 +3,11 @@
 // extents are: 0.5 <= x <= 0.5 + 2 + 0.3 for all of it, 0.5 + 1 + 0.3 for the half
 // s_0 < 1/2, which is material 1. Its strain energy is C1 (I1 - 3 - 2 ln J), with
 // I1 = 4 + 9/16 + 0.09 + 1 and C1 = 2, times its volume and the number of parts. The
-// kinetic energy of a uniform stream in a volume of 2 is rho |u|^2 with rho = 1.5.
+// kinetic energy of a uniform stream in a volume of 2 is rho |u|^2 with rho = 1.5. A
+// tether holds the first part: with the mean displacement d and the mean velocity v (here
+// that of the vector X) the fluid's force on it is kappa d + eta v, kappa = 30, eta = 4.
+
+#include <mitre/structure/library.h>
 
 #include "../structure/structure_tests.h"
 #include "instrument_tests.h"
@@ -52,6 +56,15 @@ test()
            {id},
            structure_tests::make_law<dim>("neo-Hookean", "set C1 = 2\n"),
            base::TimeExpression("1", "factor")});
+      if (shape == structure::ElementShape::simplex)
+        {
+          dealii::ParameterHandler prm;
+          structure::constraints<dim>().declare_parameters("tether", prm);
+          prm.parse_input_from_string("set Stiffness = 30\nset Damping = 4\n");
+          parameters.constraints.push_back(
+            {"hold", structure::constraints<dim>().create("tether")});
+          parameters.constraints[0].constraint->parse_parameters(prm, "hold");
+        }
       bodies.push_back(std::make_unique<structure::Body<dim>>(
         parameters, structure_tests::make_box<dim>(shape, 4), MPI_COMM_WORLD));
       X.push_back(deformed(*bodies.back()));
@@ -62,53 +75,66 @@ test()
     flow.fluid.get(),
     {{bodies[0].get(), &X[0], &X[0]}, {bodies[1].get(), &X[1], &X[1]}}};
 
-  const std::string text = "set Instruments = whole, half, top, volume, tube, energy\n"
-                           "subsection Instrument whole\n"
-                           "  set Type = part extent\n"
-                           "  set Part = leaflets\n"
-                           "end\n"
-                           "subsection Instrument half\n"
-                           "  set Type = part extent\n"
-                           "  set Part = leaflets\n"
-                           "  set Material ids = 1\n"
-                           "end\n"
-                           "subsection Instrument top\n"
-                           "  set Type = part extent\n"
-                           "  set Part = tube\n"
-                           "  set Axis = y\n"
-                           "  set Material ids = 1, 2\n"
-                           "end\n"
-                           "subsection Instrument volume\n"
-                           "  set Type = part volume\n"
-                           "  set Part = leaflets\n"
-                           "end\n"
-                           "subsection Instrument tube\n"
-                           "  set Type = part volume\n"
-                           "  set Part = tube\n"
-                           "end\n"
-                           "subsection Instrument energy\n"
-                           "  set Type = energy\n"
-                           "end\n";
+  const std::string text =
+    "set Instruments = whole, half, top, volume, tube, energy, force\n"
+    "subsection Instrument whole\n"
+    "  set Type = part extent\n"
+    "  set Part = leaflets\n"
+    "end\n"
+    "subsection Instrument half\n"
+    "  set Type = part extent\n"
+    "  set Part = leaflets\n"
+    "  set Material ids = 1\n"
+    "end\n"
+    "subsection Instrument top\n"
+    "  set Type = part extent\n"
+    "  set Part = tube\n"
+    "  set Axis = y\n"
+    "  set Material ids = 1, 2\n"
+    "end\n"
+    "subsection Instrument volume\n"
+    "  set Type = part volume\n"
+    "  set Part = leaflets\n"
+    "end\n"
+    "subsection Instrument tube\n"
+    "  set Type = part volume\n"
+    "  set Part = tube\n"
+    "end\n"
+    "subsection Instrument energy\n"
+    "  set Type = energy\n"
+    "end\n"
+    "subsection Instrument force\n"
+    "  set Type            = part force\n"
+    "  set Part            = leaflets\n"
+    "  set Reference force = 10\n"
+    "end\n";
   instruments::Instruments<dim> instruments;
   parse(instruments, text);
   const std::vector<std::string> columns = instruments.columns();
   const std::vector<double> values       = instruments.measure(observation);
 
   const double J = 1.5, I1 = 4. + 0.5625 + 0.09 + 1.;
-  const std::vector<double> expected{0.5,
-                                     2.8,
-                                     0.5,
-                                     1.8,
-                                     1.,
-                                     1.75,
-                                     J,
-                                     J,
-                                     J,
-                                     J,
-                                     J,
-                                     J,
-                                     1.5 * (dim == 2 ? 13. : 17.),
-                                     2. * 2. * (I1 - 3. - 2. * std::log(J))};
+  std::vector<double> force{30. * 1.15 + 4. * 1.65, 30. * 0.875 + 4. * 1.375};
+  if (dim == 3)
+    force.push_back(4. * 0.5);
+  std::vector<double> expected{0.5,
+                               2.8,
+                               0.5,
+                               1.8,
+                               1.,
+                               1.75,
+                               J,
+                               J,
+                               J,
+                               J,
+                               J,
+                               J,
+                               1.5 * (dim == 2 ? 13. : 17.),
+                               2. * 2. * (I1 - 3. - 2. * std::log(J))};
+  expected.insert(expected.end(), force.begin(), force.end());
+  for (const double component : force)
+    expected.push_back(component / 10.);
+  check("columns", columns.size(), expected.size(), 0);
   for (unsigned int i = 0; i < expected.size(); ++i)
     check(columns[i], values[i], expected[i], 1e-9);
 
@@ -128,6 +154,21 @@ test()
         "  set Material ids = 7\n"
         "end\n");
   expect_error([&]() { wrong.measure(observation); });
+  parse(wrong,
+        "set Instruments = drag\n"
+        "subsection Instrument drag\n"
+        "  set Type = part force\n"
+        "  set Part = tube\n"
+        "end\n");
+  expect_error([&]() { wrong.measure(observation); });
+  expect_error([&]() {
+    parse(wrong,
+          "set Instruments = front\n"
+          "subsection Instrument front\n"
+          "  set Type = pressure point\n"
+          "  set Extrapolation distance = 0.1\n"
+          "end\n");
+  });
   expect_error([&]() {
     parse(wrong,
           "set Instruments = gap\n"

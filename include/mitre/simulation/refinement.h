@@ -10,7 +10,7 @@ namespace mitre::simulation
 {
   /**
    * What the user says about the level of the grid: boxes with a level of their own, and
-   * how the grid follows the structure.
+   * how the grid follows the structure and the vorticity.
    */
   template <int dim>
   class Refinement
@@ -28,7 +28,20 @@ namespace mitre::simulation
       return buffer_cells;
     }
 
-    /// Steps between checks whether the grid has to follow the structure; 0: never.
+    /// Change of the velocity across a cell [cm/s] beyond which vorticity refines the
+    /// grid; 0: it does not.
+    double vorticity_change() const
+    {
+      return largest_change;
+    }
+
+    /// Finest level that the vorticity may ask for.
+    int vorticity_level() const
+    {
+      return finest_vorticity_level;
+    }
+
+    /// Steps between checks whether the grid has to follow structure and flow; 0: never.
     unsigned int interval() const
     {
       return check_interval;
@@ -42,6 +55,8 @@ namespace mitre::simulation
     };
     double buffer_cells         = 2.;
     unsigned int check_interval = 10;
+    double largest_change       = 0.;
+    int finest_vorticity_level  = 12;
     std::vector<Region> regions;
   };
 } // namespace mitre::simulation
