@@ -97,7 +97,8 @@ namespace fluid_tests
   private:
     static grid::PatchGridParameters<dim> grid_of(const SolverBox &box)
     {
-      auto parameters = grid_tests::unit_box<dim>(8, 1, box.boundary == "periodic" ? "xyz" : "");
+      auto parameters =
+        grid_tests::unit_box<dim>(8, 1, box.boundary == "periodic" ? "xyz" : "");
       parameters.cells_per_side = box.n_patch;
       parameters.minimum_level  = 0;
       while ((box.n_patch << parameters.minimum_level) < box.n)
