@@ -4,15 +4,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <sstream>
 
 #include <mitre/base/exceptions.h>
+#include <mitre/fluid/pressure_hypre.h>
 #include <mitre/fluid/stokes_solver.h>
 
 namespace mitre::fluid
 {
   using namespace dealii;
   using grid::VectorType;
+
+  namespace
+  {
+    /// Chebyshev iterations of a larger degree cost more than a multigrid cycle.
+    constexpr unsigned int largest_velocity_degree = 8;
+
+    /// Chebyshev degree of the velocity multigrid's smoother: fewer outer iterations than
+    /// with 2, and less time than with 4 or with two cycles (doc/solver.md).
+    constexpr unsigned int velocity_smoothing_steps = 3;
+  } // namespace
 
   void StokesSolverParameters::declare_parameters(ParameterHandler &prm)
   {
@@ -34,15 +46,30 @@ namespace mitre::fluid
                       "1",
                       Patterns::Integer(1, 20),
                       "Multigrid cycles for the pressure in each iteration.");
+    prm.declare_entry(
+      "Pressure preconditioner",
+      "multigrid",
+      Patterns::Selection("multigrid|hypre"),
+      "multigrid: geometric multigrid on the patches; hypre: BoomerAMG on "
+      "the assembled operator, which is slower and serves as a check. "
+      "Both give the same flow.");
+    prm.declare_entry("Residual history",
+                      "false",
+                      Patterns::Bool(),
+                      "Print the residual of each iteration of the solver.");
   }
 
 
   void StokesSolverParameters::parse_parameters(ParameterHandler &prm)
   {
-    relative_tolerance = prm.get_double("Relative tolerance");
-    maximum_iterations = prm.get_integer("Maximum iterations");
-    smoothing_steps    = prm.get_integer("Smoothing steps");
-    pressure_cycles    = prm.get_integer("Pressure cycles");
+    relative_tolerance      = prm.get_double("Relative tolerance");
+    maximum_iterations      = prm.get_integer("Maximum iterations");
+    smoothing_steps         = prm.get_integer("Smoothing steps");
+    pressure_cycles         = prm.get_integer("Pressure cycles");
+    pressure_preconditioner = prm.get("Pressure preconditioner") == "hypre"
+                                ? PressurePreconditioner::hypre
+                                : PressurePreconditioner::multigrid;
+    residual_history        = prm.get_bool("Residual history");
   }
 
 
@@ -113,7 +140,13 @@ namespace mitre::fluid
         operators.initialize_pressure(vector->block(1));
         vector->collect_sizes();
       }
+    if (parameters.pressure_preconditioner == PressurePreconditioner::hypre)
+      hypre = std::make_unique<PressureHypre<dim>>(operators);
   }
+
+
+  template <int dim>
+  StokesSolver<dim>::~StokesSolver() = default;
 
 
   template <int dim>
@@ -151,12 +184,26 @@ namespace mitre::fluid
         ? 1
         : std::min(200u,
                    static_cast<unsigned int>(std::ceil(std::log(0.02) / std::log(rate))));
+
+    use_velocity_multigrid = velocity_degree > largest_velocity_degree;
+    if (use_velocity_multigrid)
+      {
+        if (!velocity_multigrid)
+          velocity_multigrid =
+            std::make_unique<VelocityMultigrid<dim>>(operators, velocity_smoothing_steps);
+        velocity_multigrid->set_coefficients(density / dt, -0.5 * viscosity);
+      }
   }
 
 
   template <int dim>
   void StokesSolver<dim>::solve_velocity(VectorType &u, const VectorType &r) const
   {
+    if (use_velocity_multigrid)
+      {
+        velocity_multigrid->vmult(u, r);
+        return;
+      }
     const unsigned int per_patch = operators.velocity_space().n_dofs_per_patch();
     const double sigma           = velocity_theta / std::max(velocity_delta, 1e-300);
     double rho                   = 1. / sigma;
@@ -196,16 +243,34 @@ namespace mitre::fluid
 
 
   template <int dim>
+  void StokesSolver<dim>::apply_poisson(VectorType &dst, VectorType &phi)
+  {
+    operators.apply_gradient(velocity_product, phi, false);
+    operators.apply_divergence(dst, velocity_product);
+    dst *= -1.;
+  }
+
+
+  template <int dim>
+  void StokesSolver<dim>::pressure_cycle(VectorType &phi, const VectorType &g)
+  {
+    if (hypre)
+      hypre->vmult(phi, g);
+    else
+      multigrid.vmult(phi, g);
+  }
+
+
+  template <int dim>
   void StokesSolver<dim>::solve_pressure(VectorType &phi, const VectorType &g)
   {
-    multigrid.vmult(phi, g);
+    pressure_cycle(phi, g);
     for (unsigned int cycle = 1; cycle < parameters.pressure_cycles; ++cycle)
       {
-        multigrid.apply(pressure_product, phi);
+        apply_poisson(pressure_product, phi);
         pressure_product.sadd(-1., 1., g);
-        VectorType &change = pressure_product;
-        VectorType more(change);
-        multigrid.vmult(more, change);
+        VectorType more(pressure_product);
+        pressure_cycle(more, pressure_product);
         phi.add(1., more);
       }
   }
@@ -240,6 +305,14 @@ namespace mitre::fluid
     typename SolverFGMRES<BlockVector>::AdditionalData data(
       std::min(50u, parameters.maximum_iterations));
     SolverFGMRES<BlockVector> solver(control, data);
+    if (parameters.residual_history &&
+        Utilities::MPI::this_mpi_process(space.grid().communicator()) == 0)
+      solver.connect(
+        [&](const unsigned int iteration, const double value, const BlockVector &) {
+          std::cout << "Stokes solver: iteration " << iteration << ", relative residual "
+                    << value / reference << std::endl;
+          return SolverControl::success;
+        });
     const SystemMatrix matrix{*this};
     const Preconditioner preconditioner{*this};
     try
@@ -274,10 +347,8 @@ namespace mitre::fluid
       StokesSolver &solver;
       void vmult(VectorType &dst, const VectorType &src) const
       {
-        solver.operators.apply_gradient(
-          solver.velocity_product, const_cast<VectorType &>(src), false);
-        solver.operators.apply_divergence(dst, solver.velocity_product);
-        dst *= -1.;
+        // the operators only update the ghost entries of their argument
+        solver.apply_poisson(dst, const_cast<VectorType &>(src));
       }
     };
     struct Cycle
@@ -285,7 +356,7 @@ namespace mitre::fluid
       StokesSolver &solver;
       void vmult(VectorType &dst, const VectorType &src) const
       {
-        solver.multigrid.vmult(dst, src);
+        solver.pressure_cycle(dst, src);
       }
     };
     operators.velocity_space().synchronize(u);

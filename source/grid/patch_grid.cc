@@ -162,6 +162,33 @@ namespace mitre::grid
 
 
   template <int dim>
+  PatchGrid<dim>::PatchGrid(const PatchGrid<dim> &forest,
+                            const unsigned int cells_per_side)
+    : parameters([&]() {
+      PatchGridParameters<dim> changed = forest.parameters;
+      changed.cells_per_side           = cells_per_side;
+      return changed;
+    }())
+    , n(cells_per_side)
+    , bounding_box(forest.bounding_box)
+    , tria(forest.communicator())
+    , owned_patches(forest.owned_patches)
+    , global_patches(forest.global_patches)
+    , patches(forest.patches)
+    , neighbors(forest.neighbors)
+    , mixed_levels(forest.mixed_levels)
+    , lowest_level(forest.lowest_level)
+    , highest_level(forest.highest_level)
+    , dense_lookup(forest.dense_lookup)
+    , sparse_lookup(forest.sparse_lookup)
+  {
+    for (Patch<dim> &patch : patches)
+      for (unsigned int d = 0; d < dim; ++d)
+        patch.h[d] = cell_width(patch.level, d);
+  }
+
+
+  template <int dim>
   types::global_dof_index PatchGrid<dim>::n_global_cells() const
   {
     return n_global_patches() * Utilities::fixed_power<dim>(n);
@@ -301,7 +328,8 @@ namespace mitre::grid
     for (const auto &cell : tria.active_cell_iterators())
       if (cell->is_locally_owned())
         add(cell);
-    owned_patches = patches.size();
+    owned_patches  = patches.size();
+    global_patches = tria.n_global_active_cells();
     std::sort(patches.begin(), patches.end(), by_id);
     for (const auto &cell : tria.active_cell_iterators())
       if (cell->is_ghost())

@@ -76,6 +76,12 @@ namespace mitre::fluid
       return space;
     }
 
+    /// The halo of one layer of apply_helmholtz().
+    const grid::VelocityHalo<dim> &helmholtz_halo() const
+    {
+      return velocity_halo;
+    }
+
     const grid::CellHalo<dim> &pressure_halo() const
     {
       return cell_halo;

@@ -8,15 +8,29 @@
 
 #include <mitre/fluid/pressure_multigrid.h>
 #include <mitre/fluid/stokes_operators.h>
+#include <mitre/fluid/velocity_multigrid.h>
 
 namespace mitre::fluid
 {
+  template <int dim>
+  class PressureHypre;
+
+  /// What solves the pressure's part of the preconditioner.
+  enum class PressurePreconditioner
+  {
+    multigrid, ///< PressureMultigrid
+    hypre      ///< PressureHypre
+  };
+
+
   struct StokesSolverParameters
   {
-    double relative_tolerance       = 1e-6;
-    unsigned int maximum_iterations = 100;
-    unsigned int smoothing_steps    = 2;
-    unsigned int pressure_cycles    = 1;
+    double relative_tolerance                      = 1e-6;
+    unsigned int maximum_iterations                = 100;
+    unsigned int smoothing_steps                   = 2;
+    unsigned int pressure_cycles                   = 1;
+    PressurePreconditioner pressure_preconditioner = PressurePreconditioner::multigrid;
+    bool residual_history                          = false;
 
     static void declare_parameters(dealii::ParameterHandler &prm);
     void parse_parameters(dealii::ParameterHandler &prm);
@@ -29,9 +43,9 @@ namespace mitre::fluid
    *   (rho / dt) u - (mu / 2) laplace(u) + grad p = r,    div u = g,
    *
    * by FGMRES, preconditioned by a projection step (B. E. Griffith, J. Comput. Phys. 228
-   * (2009) 7565-7595): a velocity solve (Chebyshev iteration, of a degree that follows
-   * from mu dt / (rho h^2)), a pressure Poisson solve (multigrid cycles), and the
-   * correction of velocity and pressure.
+   * (2009) 7565-7595): a velocity solve (Chebyshev iteration of a degree that follows
+   * from mu dt / (rho h^2), or multigrid cycles where that would be large), a pressure
+   * Poisson solve (multigrid cycles), and the correction of velocity and pressure.
    */
   template <int dim>
   class StokesSolver
@@ -43,6 +57,8 @@ namespace mitre::fluid
                  const StokesSolverParameters &parameters,
                  const double density,
                  const double viscosity);
+
+    ~StokesSolver();
 
     /// To be called before solve() whenever the time step [s] changes.
     void set_time_step(const double dt);
@@ -81,6 +97,8 @@ namespace mitre::fluid
     struct Preconditioner;
 
     void solve_velocity(grid::VectorType &u, const grid::VectorType &r) const;
+    void apply_poisson(grid::VectorType &dst, grid::VectorType &phi);
+    void pressure_cycle(grid::VectorType &phi, const grid::VectorType &g);
     void solve_pressure(grid::VectorType &phi, const grid::VectorType &g);
 
     const StokesOperators<dim> &operators;
@@ -88,7 +106,11 @@ namespace mitre::fluid
     const double density, viscosity;
     double dt = 0.;
     PressureMultigrid<dim> multigrid;
-    double relative_residual = 0.;
+    std::unique_ptr<PressureHypre<dim>> hypre;
+    /// Made when a time step first needs it.
+    std::unique_ptr<VelocityMultigrid<dim>> velocity_multigrid;
+    bool use_velocity_multigrid = false;
+    double relative_residual    = 0.;
 
     /// Weight of the divergence in the residual, so that both parts have one unit.
     double divergence_scale = 1.;

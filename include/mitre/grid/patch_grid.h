@@ -81,6 +81,13 @@ namespace mitre::grid
 
     PatchGrid(MPI_Comm communicator, const PatchGridParameters<dim> &parameters);
 
+    /**
+     * The leaves of @p forest as they are now, on the same ranks, with patches of
+     * @p cells_per_side cells a side: a level of a multigrid method. It has no forest of
+     * its own, so that adapt() and update() must not be called.
+     */
+    PatchGrid(const PatchGrid &forest, const unsigned int cells_per_side);
+
     PatchGrid(const PatchGrid &)            = delete;
     PatchGrid &operator=(const PatchGrid &) = delete;
 
@@ -110,7 +117,7 @@ namespace mitre::grid
     /// Number of patches (or cells) of all ranks.
     dealii::types::global_dof_index n_global_patches() const
     {
-      return tria.n_global_active_cells();
+      return global_patches;
     }
 
     dealii::types::global_dof_index n_global_cells() const;
@@ -243,7 +250,8 @@ namespace mitre::grid
     const dealii::BoundingBox<dim> bounding_box;
     dealii::parallel::distributed::Triangulation<dim> tria;
 
-    unsigned int owned_patches = 0;
+    unsigned int owned_patches                     = 0;
+    dealii::types::global_dof_index global_patches = 0;
     std::vector<Patch<dim>> patches;
     std::vector<Neighbor> neighbors;
     bool mixed_levels = false;

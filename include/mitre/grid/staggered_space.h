@@ -100,6 +100,14 @@ namespace mitre::grid
         values[columns[k]] += weights[k] * value;
     }
 
+    /// Calls @p operation(local number, weight) for the entries of a row.
+    template <typename Operation>
+    void for_each_entry(const unsigned int row, const Operation &operation) const
+    {
+      for (unsigned int k = starts[row]; k < starts[row + 1]; ++k)
+        operation(columns[k], weights[k]);
+    }
+
     /// Sum of the prescribed part of a row, as set by set_boundary_values().
     double boundary_value(const unsigned int row) const
     {
@@ -153,6 +161,11 @@ namespace mitre::grid
     const PatchGrid<dim> &grid() const
     {
       return patch_grid;
+    }
+
+    const BoundaryKinds<dim> &boundary_kinds() const
+    {
+      return kinds;
     }
 
     unsigned int n_dofs_per_patch() const
