@@ -60,6 +60,8 @@ namespace mitre::fluid
     stokes_solver    = std::make_unique<StokesSolver<dim>>(
       *stokes_operators, parameters.solver, parameters.density, parameters.viscosity);
     advection = std::make_unique<Advection<dim>>(*velocity_space, parameters.advection);
+    feedback =
+      std::make_unique<FeedbackForcing<dim>>(*velocity_space, boundary_conditions);
     for (VectorType *v :
          {&u, &u_old, &u_new, &advection_old, &advection_new, &provisional, &rhs, &work})
       stokes_operators->initialize_velocity(*v);
@@ -164,6 +166,11 @@ namespace mitre::fluid
       rhs, u, parameters.density / dt, 0.5 * parameters.viscosity, !velocities_zero);
     rhs.add(-parameters.density, advection_term);
     rhs.add(1., force);
+    if (feedback->active())
+      {
+        feedback->compute_force(work, u, time, parameters.density / dt);
+        rhs.add(1., work);
+      }
     for (const auto &face : velocity_space->open_faces())
       {
         const double h        = patch_grid.patch(face.patch).h[face.side / 2];

@@ -6,6 +6,7 @@
 
 #include <mitre/fluid/advection.h>
 #include <mitre/fluid/boundary_conditions/interface.h>
+#include <mitre/fluid/feedback_forcing.h>
 #include <mitre/fluid/stokes_solver.h>
 #include <mitre/grid/solution_transfer.h>
 
@@ -157,6 +158,7 @@ namespace mitre::fluid
     std::unique_ptr<StokesOperators<dim>> stokes_operators;
     std::unique_ptr<StokesSolver<dim>> stokes_solver;
     std::unique_ptr<Advection<dim>> advection;
+    std::unique_ptr<FeedbackForcing<dim>> feedback;
 
     grid::VectorType u, u_old, p, p_old;
     grid::VectorType advection_old;

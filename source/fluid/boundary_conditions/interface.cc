@@ -21,6 +21,30 @@ namespace mitre::fluid
   } // namespace
 
 
+  void FeedbackParameters::declare_parameters(ParameterHandler &prm)
+  {
+    prm.declare_entry(
+      "Feedback strength",
+      "0",
+      Patterns::Double(0., 1.),
+      "k dt / rho of a body force k (u_b - u) that draws the fluid next to the boundary "
+      "to the velocity u_b that is given on it (thesis, (3.4), where it is 0.5); at open "
+      "boundaries the tangential velocity only. 0: no force.");
+    prm.declare_entry("Feedback width",
+                      "4",
+                      Patterns::Double(0.5),
+                      "Number of grid cells from the boundary over which the feedback "
+                      "force falls to zero, as half a wave of a cosine.");
+  }
+
+
+  void FeedbackParameters::parse_parameters(ParameterHandler &prm)
+  {
+    strength = prm.get_double("Feedback strength");
+    width    = prm.get_double("Feedback width");
+  }
+
+
   template <int dim>
   void BoundaryConditions<dim>::declare_parameters(ParameterHandler &prm)
   {

@@ -39,6 +39,14 @@ namespace mitre::fluid
       "rho/2 times the square of the normal velocity. With 1 the given pressure is that "
       "of a reservoir at rest, and jets into the domain cannot feed themselves; with 0 "
       "it is the pressure in the boundary itself.");
+    FeedbackParameters::declare_parameters(prm);
+    prm.declare_entry(
+      "Backflow damping",
+      "0",
+      Patterns::Double(0., 1.),
+      "k dt / rho of a body force -k u_n on the normal velocity where the fluid moves "
+      "into the domain, over \"Feedback width\" as the feedback force; 0.5 is usual. Not "
+      "for boundaries that fluid is meant to come in through.");
   }
 
 
@@ -49,6 +57,8 @@ namespace mitre::fluid
     expression = base::Expression<dim>(prm.get("Pressure"),
                                        "Boundary conditions / " + name + " / Pressure");
     beta       = prm.get_double("Backflow stabilisation");
+    feedback_parameters.parse_parameters(prm);
+    feedback_parameters.backflow_damping = prm.get_double("Backflow damping");
     table.reset();
     const std::string file = prm.get("Table file");
     if (!file.empty())

@@ -20,6 +20,7 @@ namespace mitre::fluid
                         Patterns::Anything(),
                         "Component of the velocity [cm/s], an expression of x, y, z [cm] "
                         "and t [s].");
+    FeedbackParameters::declare_parameters(prm);
   }
 
 
@@ -27,6 +28,7 @@ namespace mitre::fluid
   void VelocityCondition<dim>::parse_parameters(ParameterHandler &prm,
                                                 const std::string &name)
   {
+    feedback_parameters.parse_parameters(prm);
     components.clear();
     for (unsigned int c = 0; c < dim; ++c)
       components.emplace_back(prm.get(component_names[c]),

@@ -15,6 +15,29 @@
 namespace mitre::fluid
 {
   /**
+   * The body force next to a boundary that FeedbackForcing applies.
+   */
+  struct FeedbackParameters
+  {
+    /// k dt / rho of the force k (u_b - u); 0.5 in the thesis.
+    double strength = 0.;
+    /// The same for the normal velocity of fluid that comes in through an open boundary.
+    double backflow_damping = 0.;
+    /// Number of cells over which the force falls to zero.
+    double width = 4.;
+
+    /// Declares "Feedback strength" and "Feedback width".
+    static void declare_parameters(dealii::ParameterHandler &prm);
+    void parse_parameters(dealii::ParameterHandler &prm);
+
+    bool active() const
+    {
+      return strength > 0. || backflow_damping > 0.;
+    }
+  };
+
+
+  /**
    * What holds on a region of the box's faces. Positions in cm, times in s.
    */
   template <int dim>
@@ -54,6 +77,12 @@ namespace mitre::fluid
     virtual double backflow_stabilisation() const
     {
       return 0.;
+    }
+
+    /// The body force that holds the fluid next to the boundary to the condition.
+    virtual FeedbackParameters feedback() const
+    {
+      return {};
     }
   };
 

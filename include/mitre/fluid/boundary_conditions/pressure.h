@@ -39,11 +39,17 @@ namespace mitre::fluid
       return beta;
     }
 
+    FeedbackParameters feedback() const override
+    {
+      return feedback_parameters;
+    }
+
   private:
     base::Expression<dim> expression;
     std::shared_ptr<base::TimeTable> table;
     unsigned int column = 0;
     double beta         = 0.;
+    FeedbackParameters feedback_parameters;
   };
 } // namespace mitre::fluid
 

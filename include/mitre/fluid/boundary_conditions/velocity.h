@@ -32,8 +32,14 @@ namespace mitre::fluid
       return false;
     }
 
+    FeedbackParameters feedback() const override
+    {
+      return feedback_parameters;
+    }
+
   private:
     std::vector<base::Expression<dim>> components;
+    FeedbackParameters feedback_parameters;
   };
 } // namespace mitre::fluid
 

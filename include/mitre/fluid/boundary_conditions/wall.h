@@ -10,18 +10,28 @@ namespace mitre::fluid
   class WallCondition : public BoundaryCondition<dim>
   {
   public:
-    static void declare_parameters(dealii::ParameterHandler &)
+    static void declare_parameters(dealii::ParameterHandler &prm)
     {
+      FeedbackParameters::declare_parameters(prm);
     }
 
-    void parse_parameters(dealii::ParameterHandler &, const std::string &) override
+    void parse_parameters(dealii::ParameterHandler &prm, const std::string &) override
     {
+      feedback_parameters.parse_parameters(prm);
     }
 
     grid::BoundaryKind kind() const override
     {
       return grid::BoundaryKind::velocity;
     }
+
+    FeedbackParameters feedback() const override
+    {
+      return feedback_parameters;
+    }
+
+  private:
+    FeedbackParameters feedback_parameters;
   };
 
 
