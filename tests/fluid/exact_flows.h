@@ -190,7 +190,7 @@ namespace exact_flows
                    const double end_time,
                    const double courant)
   {
-    Errors before;
+    Errors before = {0., 0., 0., 0};
     for (unsigned int n = first; n <= last; n *= 2)
       {
         const Errors now  = run<dim>(n, refined, exact, end_time, courant, 1e-7);
