@@ -1,7 +1,7 @@
 // The cross-section of the cylinder of the DFG benchmark: a disc of diameter 0.1 cm at
 // (0.2, 0.2) cm. Made by: gmsh -2 -format msh22 disc.geo -o disc.msh
 r      = 0.05;
-rim    = 0.0025; // size of the elements at the surface and in the middle [cm]
+DefineConstant[ rim = 0.0025 ]; // size of the elements at the surface and in the middle [cm]
 middle = 0.008;
 Point(1) = {0.2, 0.2, 0, middle};
 Point(2) = {0.2 + r, 0.2, 0, rim};

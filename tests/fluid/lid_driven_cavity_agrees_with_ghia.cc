@@ -158,7 +158,10 @@ namespace
         if (print_table)
           out() << "| " << reynolds << " | " << (8 << phase.level) << " | "
                 << difference(flow, 0, column) << " | " << difference(flow, 1, column)
-                << " | " << std::max(difference(flow, 0, 3), difference(flow, 1, 3))
+                << " | "
+                << (reynolds == 1000. ? std::to_string(std::max(difference(flow, 0, 3),
+                                                                difference(flow, 1, 3)))
+                                      : "")
                 << " | " << extreme(profile_of(flow, 0), -1.) << " | "
                 << extreme(profile_of(flow, 1), 1.) << " | "
                 << extreme(profile_of(flow, 1), -1.) << " | " << change << " |"

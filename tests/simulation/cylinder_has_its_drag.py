@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """parameter_files/cylinder_steady.prm on a grid of half its resolution: at t = 2 s the drag
 coefficient of the cylinder is within 4 %, the pressure difference between its front and its
-back within 1.5 % of the benchmark's (5.57954 and 0.117520), and the lift coefficient, 0.0106,
+back within 2 % of the benchmark's (5.57954 and 0.117520), and the lift coefficient, 0.0106,
 below 0.1. (doc/verification.md has the values on finer grids and after a longer time.)
 
 usage: cylinder_has_its_drag.py MITRE SOURCE_FOLDER WORK_FOLDER
@@ -41,6 +41,7 @@ subsection Grid
 end
 subsection Structure
   subsection Part cylinder
+    set Mesh file = meshes/cylinder/disc_coarse.msh
     subsection Constraint hold
       set Stiffness = 1.25e5
       set Damping   = 250
@@ -75,7 +76,7 @@ if abs(drag / 5.57953523384 - 1) > 0.04:
     failures.append("drag")
 if abs(lift) > 0.1:
     failures.append("lift")
-if abs(difference / 0.11752016697 - 1) > 0.015:
+if abs(difference / 0.11752016697 - 1) > 0.02:
     failures.append("pressure difference")
 if failures:
     sys.exit("FAILED: " + ", ".join(failures))
