@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include <mitre/base/exceptions.h>
+#include <mitre/fluid/chebyshev.h>
 #include <mitre/fluid/pressure_hypre.h>
 #include <mitre/fluid/stokes_solver.h>
 
@@ -173,18 +174,10 @@ namespace mitre::fluid
     smallest_h       = Utilities::MPI::min(smallest, patch_grid.communicator());
     divergence_scale = density * smallest_h / dt;
 
-    // eigenvalues of the operator over its diagonal; boundary rows reach a little beyond
-    const double lower = 1. / (1. + 2. * largest);
-    const double upper = (1. + 5. * largest) / (1. + 2. * largest);
-    velocity_theta     = 0.5 * (upper + lower);
-    velocity_delta     = 0.5 * (upper - lower);
-    const double root  = std::sqrt(upper / lower);
-    const double rate  = (root - 1.) / (root + 1.);
-    velocity_degree =
-      rate < 0.02
-        ? 1
-        : std::min(200u,
-                   static_cast<unsigned int>(std::ceil(std::log(0.02) / std::log(rate))));
+    const auto [lower, upper] = viscous_spectrum(largest);
+    velocity_theta            = 0.5 * (upper + lower);
+    velocity_delta            = 0.5 * (upper - lower);
+    velocity_degree           = chebyshev_degree(lower, upper, 0.02, 200);
 
     use_velocity_multigrid = velocity_degree > largest_velocity_degree;
     if (use_velocity_multigrid)

@@ -1,8 +1,9 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <cmath>
+#include <tuple>
 
+#include <mitre/fluid/chebyshev.h>
 #include <mitre/fluid/velocity_multigrid.h>
 
 namespace mitre::fluid
@@ -65,20 +66,12 @@ namespace mitre::fluid
         if (space.grid().has_coarse_fine_interfaces())
           space.synchronize(level->inverse_diagonal);
         largest = Utilities::MPI::max(largest, space.grid().communicator());
-        // boundary rows reach a little beyond 4, the bound of the inner ones
-        level->lower = 1. / (1. + 2. * largest);
-        level->upper = (1. + 5. * largest) / (1. + 2. * largest);
+        std::tie(level->lower, level->upper) = viscous_spectrum(largest);
       }
 
     // reduces the error on the coarsest level by 10
     const Level &coarsest = *levels.back();
-    const double root     = std::sqrt(coarsest.upper / coarsest.lower);
-    const double rate     = (root - 1.) / (root + 1.);
-    coarsest_degree =
-      rate < 0.1
-        ? 1
-        : std::min(100u,
-                   static_cast<unsigned int>(std::ceil(std::log(0.1) / std::log(rate))));
+    coarsest_degree       = chebyshev_degree(coarsest.lower, coarsest.upper, 0.1, 100);
   }
 
 
