@@ -1,4 +1,7 @@
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <mitre/base/exceptions.h>
@@ -143,6 +146,7 @@ namespace mitre::fluid
                                             const VectorType &velocity,
                                             const double time)
   {
+    const PhaseTimes::Scope timed(stokes_solver->phase_times(), Phase::advection);
     advection->apply(dst, velocity, prescribed(time));
   }
 
@@ -150,27 +154,39 @@ namespace mitre::fluid
   template <int dim>
   unsigned int NavierStokes<dim>::solve(VectorType &velocity,
                                         VectorType &pressure,
-                                        const VectorType &advection_term,
+                                        const double weight,
                                         const VectorType &force,
                                         const double time,
                                         const double dt)
   {
+    const PhaseTimes::Scope timed(stokes_solver->phase_times(), Phase::operators);
     set_time_step(dt);
     set_fixed_faces(velocity, time + dt);
 
-    // what does not depend on the new velocity and pressure
-    const auto values_now = prescribed(time), values_new = prescribed(time + dt);
-    if (values_now)
-      stokes_operators->set_boundary_values(values_now);
-    stokes_operators->apply_helmholtz(
-      rhs, u, parameters.density / dt, 0.5 * parameters.viscosity, !velocities_zero);
-    rhs.add(-parameters.density, advection_term);
-    rhs.add(1., force);
-    if (feedback->active())
+    // the residual for the starting guess v:
+    // (rho / dt) (u - v) + (mu / 2) laplace(u + v) - rho A + f - grad p
+    const std::size_t n_entries = u.locally_owned_size();
+    {
+      double *sum       = work.begin();
+      const double *now = u.begin(), *guess = velocity.begin();
+      for (std::size_t i = 0; i < n_entries; ++i)
+        sum[i] = now[i] + guess[i];
+    }
+    if (!velocities_zero)
       {
-        feedback->compute_force(work, u, time, parameters.density / dt);
-        rhs.add(1., work);
+        const auto values_now = prescribed(time), values_new = prescribed(time + dt);
+        stokes_operators->set_boundary_values([&](const grid::BoundaryTerm<dim> &term) {
+          return values_now(term) + values_new(term);
+        });
       }
+    stokes_operators->apply_helmholtz(
+      rhs, work, 0., 0.5 * parameters.viscosity, !velocities_zero);
+    stokes_operators->apply_gradient(rhs, pressure, true, -1.);
+
+    if (feedback->active())
+      feedback->compute_force(work, u, time, parameters.density / dt);
+    else
+      work = 0.;
     for (const auto &face : velocity_space->open_faces())
       {
         const double h        = patch_grid.patch(face.patch).h[face.side / 2];
@@ -187,20 +203,38 @@ namespace mitre::fluid
             if (inward > 0.)
               outside -= 0.5 * beta * parameters.density * inward * inward;
           }
-        rhs.local_element(face.dof) += (face.side % 2 == 0 ? 2. : -2.) * outside / h;
+        work.local_element(face.dof) += (face.side % 2 == 0 ? 2. : -2.) * outside / h;
       }
-    velocity_space->zero_fixed_faces(rhs);
-    const double size = rhs.l2_norm();
 
-    if (values_new)
-      stokes_operators->set_boundary_values(values_new);
-    stokes_operators->apply_helmholtz(work,
-                                      velocity,
-                                      parameters.density / dt,
-                                      -0.5 * parameters.viscosity,
-                                      !velocities_zero);
-    stokes_operators->apply_gradient(work, pressure, true);
-    rhs.add(-1., work);
+    // what the residual is compared with: the same without the starting guess
+    double squares = 0.;
+    {
+      constexpr std::size_t width = 8;
+      std::array<double, width> sum{};
+      const double a = parameters.density / dt, b = -parameters.density * weight,
+                   c = -parameters.density * (1. - weight);
+      double *r         = rhs.begin();
+      const double *now = u.begin(), *guess = velocity.begin(), *f = force.begin(),
+                   *more = work.begin(), *advection_now = advection_new.begin(),
+                   *advection_before = advection_old.begin();
+      const auto entry = [&](const std::size_t i, const std::size_t k) {
+        const double rest = b * advection_now[i] + c * advection_before[i] + f[i] + more[i];
+        const double whole = a * now[i] + rest;
+        r[i] += a * (now[i] - guess[i]) + rest;
+        sum[k] += whole * whole;
+      };
+      const std::size_t whole = n_entries - n_entries % width;
+      for (std::size_t i = 0; i < whole; i += width)
+        for (std::size_t k = 0; k < width; ++k)
+          entry(i + k, k);
+      for (std::size_t i = whole; i < n_entries; ++i)
+        entry(i, 0);
+      for (const double s : sum)
+        squares += s;
+    }
+    velocity_space->zero_fixed_faces(rhs);
+    const double size =
+      std::sqrt(Utilities::MPI::sum(squares, patch_grid.communicator()));
     const double start = rhs.l2_norm();
     return stokes_solver->solve(velocity, pressure, rhs, std::max(size, start));
   }
@@ -213,7 +247,7 @@ namespace mitre::fluid
     compute_advection(advection_new, u, time);
     provisional = u;
     p_new       = p;
-    solve(provisional, p_new, advection_new, force, time, dt);
+    solve(provisional, p_new, 1., force, time, dt);
     has_predicted = true;
   }
 
@@ -222,6 +256,7 @@ namespace mitre::fluid
   unsigned int
   NavierStokes<dim>::advance(const double time, const double dt, const VectorType &force)
   {
+    unsigned int iterations;
     if (!has_history)
       {
         // (2.20)-(2.24): advection at the midpoint from a provisional velocity
@@ -231,25 +266,29 @@ namespace mitre::fluid
         work.sadd(0.5, 0.5, provisional);
         compute_advection(advection_old, u, time);
         compute_advection(advection_new, work, time + 0.5 * dt);
-        u_new = provisional;
+        u_new      = provisional;
+        iterations = solve(u_new, p_new, 1., force, time, dt);
       }
     else
       {
         // (2.16): extrapolation from the last two times
         const double ratio = dt / previous_dt;
         compute_advection(advection_new, u, time);
-        rhs = advection_new;
-        advection_new.sadd(1. + 0.5 * ratio, -0.5 * ratio, advection_old);
-        advection_old = rhs;
-        u_new         = u;
-        p_new         = p;
-        if (n_steps_since_change >= 2)
-          {
-            u_new.sadd(1. + ratio, -ratio, u_old);
-            p_new.sadd(1. + ratio, -ratio, p_old);
-          }
+        const double reach   = n_steps_since_change >= 2 ? ratio : 0.;
+        const auto extrapolate = [reach](VectorType &next,
+                                         const VectorType &now,
+                                         const VectorType &before) {
+          double *x = next.begin();
+          const double *y = now.begin(), *z = before.begin();
+          const std::size_t n_entries = next.locally_owned_size();
+          for (std::size_t i = 0; i < n_entries; ++i)
+            x[i] = y[i] + reach * (y[i] - z[i]);
+        };
+        extrapolate(u_new, u, u_old);
+        extrapolate(p_new, p, p_old);
+        iterations = solve(u_new, p_new, 1. + 0.5 * ratio, force, time, dt);
+        advection_old.swap(advection_new);
       }
-    const unsigned int iterations = solve(u_new, p_new, advection_new, force, time, dt);
     u_old.swap(u);
     u.swap(u_new);
     p_old.swap(p);

@@ -81,6 +81,163 @@ namespace mitre::fluid
 
 
   template <int dim>
+  void StokesOperators<dim>::helmholtz_on_patch(VectorType &dst,
+                                                const VectorType &u,
+                                                const unsigned int p,
+                                                const double a,
+                                                const double b,
+                                                const bool inhomogeneous,
+                                                std::vector<double> &padded) const
+  {
+    const auto &patch = patch_grid.patch(p);
+    std::array<double, dim> w;
+    double center_weight = a;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        w[d] = b / (patch.h[d] * patch.h[d]);
+        center_weight -= 2. * w[d];
+      }
+    for (unsigned int c = 0; c < dim; ++c)
+      {
+        velocity_halo.gather(u, p, c, padded.data(), inhomogeneous);
+        const auto e          = velocity_halo.extents(c);
+        const unsigned int nx = space.extent(c, 0), ny = space.extent(c, 1),
+                           nz   = (dim == 3 ? space.extent(c, dim - 1) : 1);
+        const std::ptrdiff_t sy = e[0], sz = e[0] * e[1];
+        double *out = dst.begin() + space.first_dof(p, c);
+        for (unsigned int k = 0; k < nz; ++k)
+          for (unsigned int j = 0; j < ny; ++j, out += nx)
+            {
+              const double *in =
+                padded.data() + 1 + (j + 1) * sy + (dim == 3 ? (k + 1) * sz : 0);
+              for (unsigned int i = 0; i < nx; ++i)
+                {
+                  double sum = center_weight * in[i] +
+                               w[0] * (*(in + i - 1) + in[i + 1]) +
+                               w[1] * (*(in + i - sy) + in[i + sy]);
+                  if constexpr (dim == 3)
+                    sum += w[2] * (*(in + i - sz) + in[i + sz]);
+                  out[i] = sum;
+                }
+            }
+      }
+  }
+
+
+  template <int dim>
+  void StokesOperators<dim>::gradient_on_patch(VectorType &dst,
+                                               const VectorType &pressure,
+                                               const unsigned int p,
+                                               const bool add,
+                                               const double scale,
+                                               std::vector<double> &padded) const
+  {
+    const std::ptrdiff_t sy = n + 2, sz = sy * sy;
+    cell_halo.gather(pressure, p, padded.data());
+    for (unsigned int c = 0; c < dim; ++c)
+      {
+        const double factor       = scale / patch_grid.patch(p).h[c];
+        const std::ptrdiff_t back = (c == 0 ? 1 : (c == 1 ? sy : sz));
+        const unsigned int nx = space.extent(c, 0), ny = space.extent(c, 1),
+                           nz = (dim == 3 ? space.extent(c, dim - 1) : 1);
+
+        // planes of faces on the boundary are half a cell away from the pressure,
+        // those on coarse-fine interfaces come from add_interface_gradient()
+        std::array<double, 2> end_factor;
+        for (unsigned int upper = 0; upper < 2; ++upper)
+          {
+            const Neighbor kind = patch_grid.neighbor(p, 2 * c + upper);
+            end_factor[upper]   = (kind == Neighbor::same       ? 1.
+                                   : kind == Neighbor::boundary ? 2.
+                                                                : 0.) *
+                                factor;
+          }
+        double *out = dst.begin() + space.first_dof(p, c);
+        for (unsigned int k = 0; k < nz; ++k)
+          for (unsigned int j = 0; j < ny; ++j, out += nx)
+            {
+              const double *in =
+                padded.data() + 1 + (j + 1) * sy + (dim == 3 ? (k + 1) * sz : 0);
+              double row_factor = factor;
+              if (c > 0)
+                {
+                  const unsigned int plane = (c == 1 ? j : k);
+                  if (plane == 0)
+                    row_factor = end_factor[0];
+                  else if (plane == n)
+                    row_factor = end_factor[1];
+                }
+              if (add)
+                for (unsigned int i = 0; i < nx; ++i)
+                  out[i] += row_factor * (in[i] - *(in + i - back));
+              else
+                for (unsigned int i = 0; i < nx; ++i)
+                  out[i] = row_factor * (in[i] - *(in + i - back));
+              if (c == 0)
+                {
+                  out[0] += (end_factor[0] - factor) * (in[0] - *(in - 1));
+                  out[n] += (end_factor[1] - factor) * (in[n] - in[n - 1]);
+                }
+            }
+      }
+  }
+
+
+  template <int dim>
+  void StokesOperators<dim>::divergence_on_patch(VectorType &dst,
+                                                 const VectorType &u,
+                                                 const unsigned int p,
+                                                 const double factor) const
+  {
+    const unsigned int nz = (dim == 3 ? n : 1);
+    double *out = dst.begin() + static_cast<std::size_t>(p) * cell_halo.n_cells_per_patch();
+    const auto &patch = patch_grid.patch(p);
+    std::array<const double *, 3> in{};
+    std::array<double, 3> w{};
+    for (unsigned int c = 0; c < dim; ++c)
+      {
+        in[c] = u.begin() + space.first_dof(p, c);
+        w[c]  = factor / patch.h[c];
+      }
+    for (unsigned int k = 0; k < nz; ++k)
+      for (unsigned int j = 0; j < n; ++j, out += n)
+        {
+          const double *ux = in[0] + (j + k * n) * (n + 1);
+          const double *uy = in[1] + (j + k * (n + 1)) * n;
+          const double *uz = in[2] + (j + k * n) * n;
+          for (unsigned int i = 0; i < n; ++i)
+            {
+              double sum = w[0] * (ux[i + 1] - ux[i]) + w[1] * (uy[i + n] - uy[i]);
+              if constexpr (dim == 3)
+                sum += w[2] * (uz[i + n * n] - uz[i]);
+              out[i] = sum;
+            }
+        }
+  }
+
+
+  template <int dim>
+  void StokesOperators<dim>::add_interface_gradient(VectorType &dst,
+                                                    const VectorType &pressure,
+                                                    const double factor) const
+  {
+    if (!patch_grid.has_coarse_fine_interfaces())
+      return;
+    interface_forces      = 0.;
+    const double *p_value = pressure.begin();
+    const auto &table     = space.coarse_fine_faces();
+    for (unsigned int row = 0; row < table.n_rows(); ++row)
+      interface_forces.local_element(table.destination(row)) =
+        interface_cells[row].second * p_value[interface_cells[row].first];
+    for (const CoarseFace &face : coarse_faces)
+      interface_forces.local_element(face.dof) = face.area * p_value[face.cell];
+    space.collect(interface_forces);
+    interface_forces.scale(space.inverse_volumes());
+    dst.add(factor, interface_forces);
+  }
+
+
+  template <int dim>
   void StokesOperators<dim>::apply_helmholtz(VectorType &dst,
                                              VectorType &u,
                                              const double a,
@@ -90,40 +247,7 @@ namespace mitre::fluid
     u.update_ghost_values();
     std::vector<double> padded(velocity_halo.size(0));
     for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
-      {
-        const auto &patch = patch_grid.patch(p);
-        std::array<double, dim> w;
-        double center_weight = a;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            w[d] = b / (patch.h[d] * patch.h[d]);
-            center_weight -= 2. * w[d];
-          }
-        for (unsigned int c = 0; c < dim; ++c)
-          {
-            velocity_halo.gather(u, p, c, padded.data(), inhomogeneous);
-            const auto e          = velocity_halo.extents(c);
-            const unsigned int nx = space.extent(c, 0), ny = space.extent(c, 1),
-                               nz   = (dim == 3 ? space.extent(c, dim - 1) : 1);
-            const std::ptrdiff_t sy = e[0], sz = e[0] * e[1];
-            double *out = dst.begin() + space.first_dof(p, c);
-            for (unsigned int k = 0; k < nz; ++k)
-              for (unsigned int j = 0; j < ny; ++j, out += nx)
-                {
-                  const double *in =
-                    padded.data() + 1 + (j + 1) * sy + (dim == 3 ? (k + 1) * sz : 0);
-                  for (unsigned int i = 0; i < nx; ++i)
-                    {
-                      double sum = center_weight * in[i] +
-                                   w[0] * (*(in + i - 1) + in[i + 1]) +
-                                   w[1] * (*(in + i - sy) + in[i + sy]);
-                      if constexpr (dim == 3)
-                        sum += w[2] * (*(in + i - sz) + in[i + sz]);
-                      out[i] = sum;
-                    }
-                }
-          }
-      }
+      helmholtz_on_patch(dst, u, p, a, b, inhomogeneous, padded);
     u.zero_out_ghost_values();
     finish(dst);
   }
@@ -132,111 +256,52 @@ namespace mitre::fluid
   template <int dim>
   void StokesOperators<dim>::apply_gradient(VectorType &dst,
                                             VectorType &pressure,
-                                            const bool add) const
+                                            const bool add,
+                                            const double factor) const
   {
     pressure.update_ghost_values();
     std::vector<double> padded(cell_halo.padded_size());
-    const std::ptrdiff_t sy = n + 2, sz = sy * sy;
     for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
-      {
-        cell_halo.gather(pressure, p, padded.data());
-        for (unsigned int c = 0; c < dim; ++c)
-          {
-            const double factor       = 1. / patch_grid.patch(p).h[c];
-            const std::ptrdiff_t back = (c == 0 ? 1 : (c == 1 ? sy : sz));
-            const unsigned int nx = space.extent(c, 0), ny = space.extent(c, 1),
-                               nz = (dim == 3 ? space.extent(c, dim - 1) : 1);
-
-            // planes of faces on the boundary are half a cell away from the pressure,
-            // those on coarse-fine interfaces follow below
-            std::array<double, 2> end_factor;
-            for (unsigned int upper = 0; upper < 2; ++upper)
-              {
-                const Neighbor kind = patch_grid.neighbor(p, 2 * c + upper);
-                end_factor[upper]   = (kind == Neighbor::same       ? 1.
-                                       : kind == Neighbor::boundary ? 2.
-                                                                    : 0.) *
-                                    factor;
-              }
-            double *out = dst.begin() + space.first_dof(p, c);
-            for (unsigned int k = 0; k < nz; ++k)
-              for (unsigned int j = 0; j < ny; ++j, out += nx)
-                {
-                  const double *in =
-                    padded.data() + 1 + (j + 1) * sy + (dim == 3 ? (k + 1) * sz : 0);
-                  double row_factor = factor;
-                  if (c > 0)
-                    {
-                      const unsigned int plane = (c == 1 ? j : k);
-                      if (plane == 0)
-                        row_factor = end_factor[0];
-                      else if (plane == n)
-                        row_factor = end_factor[1];
-                    }
-                  if (add)
-                    for (unsigned int i = 0; i < nx; ++i)
-                      out[i] += row_factor * (in[i] - *(in + i - back));
-                  else
-                    for (unsigned int i = 0; i < nx; ++i)
-                      out[i] = row_factor * (in[i] - *(in + i - back));
-                  if (c == 0)
-                    {
-                      out[0] += (end_factor[0] - factor) * (in[0] - *(in - 1));
-                      out[n] += (end_factor[1] - factor) * (in[n] - in[n - 1]);
-                    }
-                }
-          }
-      }
+      gradient_on_patch(dst, pressure, p, add, factor, padded);
     pressure.zero_out_ghost_values();
-
-    if (patch_grid.has_coarse_fine_interfaces())
-      {
-        interface_forces      = 0.;
-        const double *p_value = pressure.begin();
-        const auto &table     = space.coarse_fine_faces();
-        for (unsigned int row = 0; row < table.n_rows(); ++row)
-          interface_forces.local_element(table.destination(row)) =
-            interface_cells[row].second * p_value[interface_cells[row].first];
-        for (const CoarseFace &face : coarse_faces)
-          interface_forces.local_element(face.dof) = face.area * p_value[face.cell];
-        space.collect(interface_forces);
-        interface_forces.scale(space.inverse_volumes());
-        dst.add(1., interface_forces);
-      }
+    add_interface_gradient(dst, pressure, factor);
     finish(dst);
   }
 
 
   template <int dim>
-  void StokesOperators<dim>::apply_divergence(VectorType &dst, const VectorType &u) const
+  void StokesOperators<dim>::apply_divergence(VectorType &dst,
+                                              const VectorType &u,
+                                              const double factor) const
   {
-    const unsigned int nz = (dim == 3 ? n : 1);
-    double *out           = dst.begin();
+    for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
+      divergence_on_patch(dst, u, p, factor);
+  }
+
+
+  template <int dim>
+  void StokesOperators<dim>::apply_stokes(VectorType &momentum,
+                                          VectorType &mass,
+                                          VectorType &u,
+                                          VectorType &pressure,
+                                          const double a,
+                                          const double b,
+                                          const double factor) const
+  {
+    u.update_ghost_values_start(1);
+    pressure.update_ghost_values();
+    u.update_ghost_values_finish();
+    std::vector<double> padded(std::max(velocity_halo.size(0), cell_halo.padded_size()));
     for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
       {
-        const auto &patch = patch_grid.patch(p);
-        std::array<const double *, 3> in{};
-        std::array<double, 3> w{};
-        for (unsigned int c = 0; c < dim; ++c)
-          {
-            in[c] = u.begin() + space.first_dof(p, c);
-            w[c]  = 1. / patch.h[c];
-          }
-        for (unsigned int k = 0; k < nz; ++k)
-          for (unsigned int j = 0; j < n; ++j, out += n)
-            {
-              const double *ux = in[0] + (j + k * n) * (n + 1);
-              const double *uy = in[1] + (j + k * (n + 1)) * n;
-              const double *uz = in[2] + (j + k * n) * n;
-              for (unsigned int i = 0; i < n; ++i)
-                {
-                  double sum = w[0] * (ux[i + 1] - ux[i]) + w[1] * (uy[i + n] - uy[i]);
-                  if constexpr (dim == 3)
-                    sum += w[2] * (uz[i + n * n] - uz[i]);
-                  out[i] = sum;
-                }
-            }
+        helmholtz_on_patch(momentum, u, p, a, b, false, padded);
+        gradient_on_patch(momentum, pressure, p, true, 1., padded);
+        divergence_on_patch(mass, u, p, factor);
       }
+    u.zero_out_ghost_values();
+    pressure.zero_out_ghost_values();
+    add_interface_gradient(momentum, pressure, 1.);
+    finish(momentum);
   }
 
 

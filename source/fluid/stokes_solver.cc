@@ -3,6 +3,7 @@
 #include <deal.II/lac/solver_gmres.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iostream>
 #include <sstream>
@@ -75,48 +76,87 @@ namespace mitre::fluid
   }
 
 
-  template <int dim>
-  struct StokesSolver<dim>::SystemMatrix
+  namespace
   {
-    StokesSolver &solver;
+    /// Directions that are kept before the iteration starts again.
+    constexpr unsigned int largest_basis = 50;
 
-    void vmult(BlockVector &dst, const BlockVector &src) const
+    /// Sums of products of owned entries: the local parts of x.x and x.y.
+    struct Products
     {
-      // the operators only update the ghost entries of their argument
-      BlockVector &x = const_cast<BlockVector &>(src);
-      solver.operators.apply_helmholtz(dst.block(0),
-                                       x.block(0),
-                                       solver.density / solver.dt,
-                                       -0.5 * solver.viscosity,
-                                       false);
-      solver.operators.apply_gradient(dst.block(0), x.block(1), true);
-      solver.operators.apply_divergence(dst.block(1), x.block(0));
-      dst.block(1) *= -solver.divergence_scale;
-    }
-  };
+      double xx = 0., xy = 0.;
 
+      void add(const VectorType &x, const VectorType &y)
+      {
+        constexpr std::size_t width = 8;
+        std::array<double, width> a{}, b{};
+        const double *xs = x.begin(), *ys = y.begin();
+        const std::size_t size = x.locally_owned_size(), whole = size - size % width;
+        for (std::size_t i = 0; i < whole; i += width)
+          for (std::size_t k = 0; k < width; ++k)
+            {
+              a[k] += xs[i + k] * xs[i + k];
+              b[k] += xs[i + k] * ys[i + k];
+            }
+        for (std::size_t i = whole; i < size; ++i)
+          {
+            a[0] += xs[i] * xs[i];
+            b[0] += xs[i] * ys[i];
+          }
+        for (std::size_t k = 0; k < width; ++k)
+          {
+            xx += a[k];
+            xy += b[k];
+          }
+      }
+    };
 
-  template <int dim>
-  struct StokesSolver<dim>::Preconditioner
-  {
-    StokesSolver &solver;
-
-    void vmult(BlockVector &dst, const BlockVector &src) const
+    /// Sums over all ranks of the products of (x_u, x_p) and (y_u, y_p).
+    Products products(const VectorType &x_u,
+                      const VectorType &x_p,
+                      const VectorType &y_u,
+                      const VectorType &y_p)
     {
-      StokesSolver &s = solver;
-      s.solve_velocity(dst.block(0), src.block(0));
-      // div (u - grad phi) = - r_p / scale
-      s.operators.apply_divergence(s.pressure_rhs, dst.block(0));
-      s.pressure_rhs.add(1. / s.divergence_scale, src.block(1));
-      s.pressure_rhs *= -1.;
-      s.solve_pressure(s.pressure_correction, s.pressure_rhs);
-      s.operators.apply_gradient(s.velocity_product, s.pressure_correction, false);
-      dst.block(0).add(-1., s.velocity_product);
-      // p = (rho / dt) phi - (mu / 2) div grad phi
-      dst.block(1).equ(s.density / s.dt, s.pressure_correction);
-      dst.block(1).add(0.5 * s.viscosity, s.pressure_rhs);
+      Products sum;
+      sum.add(x_u, y_u);
+      sum.add(x_p, y_p);
+      const double own[2] = {sum.xx, sum.xy};
+      double all[2];
+      MPI_Allreduce(own, all, 2, MPI_DOUBLE, MPI_SUM, x_u.get_mpi_communicator());
+      return {all[0], all[1]};
     }
-  };
+
+    /// x += alpha z and r -= alpha w; returns the local part of the new r.r.
+    double update(VectorType &x,
+                  const VectorType &z,
+                  VectorType &r,
+                  const VectorType &w,
+                  const double alpha)
+    {
+      constexpr std::size_t width = 8;
+      std::array<double, width> sum{};
+      double *xs = x.begin(), *rs = r.begin();
+      const double *zs = z.begin(), *ws = w.begin();
+      const std::size_t size = x.locally_owned_size(), whole = size - size % width;
+      for (std::size_t i = 0; i < whole; i += width)
+        for (std::size_t k = 0; k < width; ++k)
+          {
+            xs[i + k] += alpha * zs[i + k];
+            rs[i + k] -= alpha * ws[i + k];
+            sum[k] += rs[i + k] * rs[i + k];
+          }
+      for (std::size_t i = whole; i < size; ++i)
+        {
+          xs[i] += alpha * zs[i];
+          rs[i] -= alpha * ws[i];
+          sum[0] += rs[i] * rs[i];
+        }
+      double total = 0.;
+      for (const double s : sum)
+        total += s;
+      return total;
+    }
+  } // namespace
 
 
   template <int dim>
@@ -135,13 +175,7 @@ namespace mitre::fluid
     operators.initialize_pressure(pressure_rhs);
     operators.initialize_pressure(pressure_correction);
     operators.initialize_pressure(pressure_product);
-    for (BlockVector *vector : {&correction, &residual})
-      {
-        vector->reinit(2);
-        operators.initialize_velocity(vector->block(0));
-        operators.initialize_pressure(vector->block(1));
-        vector->collect_sizes();
-      }
+    operators.initialize_pressure(divergence_residual);
     if (parameters.pressure_preconditioner == PressurePreconditioner::hypre)
       hypre = std::make_unique<PressureHypre<dim>>(operators);
   }
@@ -271,65 +305,129 @@ namespace mitre::fluid
 
 
   template <int dim>
+  void StokesSolver<dim>::precondition(Direction &direction,
+                                       const VectorType &r_u,
+                                       const VectorType &r_p)
+  {
+    VectorType &z_u = direction.z_u, &z_p = direction.z_p;
+    {
+      const PhaseTimes::Scope timed(times, Phase::velocity);
+      solve_velocity(z_u, r_u);
+    }
+    // div (u - grad phi) = - r_p / scale
+    operators.apply_divergence(pressure_rhs, z_u, -1.);
+    pressure_rhs.add(-1. / divergence_scale, r_p);
+    {
+      const PhaseTimes::Scope timed(times, Phase::pressure);
+      solve_pressure(pressure_correction, pressure_rhs);
+    }
+    operators.apply_gradient(z_u, pressure_correction, true, -1.);
+    // p = (rho / dt) phi - (mu / 2) div grad phi
+    double *p              = z_p.begin();
+    const double *phi      = pressure_correction.begin(), *g = pressure_rhs.begin();
+    const double a         = density / dt, b = 0.5 * viscosity;
+    const std::size_t size = z_p.locally_owned_size();
+    for (std::size_t i = 0; i < size; ++i)
+      p[i] = a * phi[i] + b * g[i];
+  }
+
+
+  template <int dim>
   unsigned int StokesSolver<dim>::solve(VectorType &u,
                                         VectorType &p,
-                                        VectorType &momentum_residual,
+                                        VectorType &r_u,
                                         const double reference)
   {
+    const PhaseTimes::Scope timed(times, Phase::krylov);
     const grid::StaggeredSpace<dim> &space = operators.velocity_space();
-    residual.block(0)                      = momentum_residual;
-    space.zero_fixed_faces(residual.block(0));
-    operators.apply_divergence(residual.block(1), u);
-    residual.block(1) *= divergence_scale;
-    correction = 0.;
+    const MPI_Comm communicator            = space.grid().communicator();
+    VectorType &r_p                        = divergence_residual;
+    space.zero_fixed_faces(r_u);
+    operators.apply_divergence(r_p, u, divergence_scale);
 
     const double tolerance = parameters.relative_tolerance * reference;
-    const double start     = residual.l2_norm();
+    const double start     = std::sqrt(products(r_u, r_p, r_u, r_p).xx);
     AssertThrow(
       std::isfinite(start),
       base::UserError("The flow has become infinite or undefined. The time step "
                       "is probably too large for the stiffness of the structure "
                       "or the speed of the flow."));
-    if (start <= tolerance)
+    const bool print = parameters.residual_history &&
+                       Utilities::MPI::this_mpi_process(communicator) == 0;
+    const auto report = [&](const unsigned int iteration, const double value) {
+      if (print)
+        std::cout << "Stokes solver: iteration " << iteration << ", relative residual "
+                  << value / reference << std::endl;
+    };
+
+    double size             = start;
+    unsigned int iterations = 0, n_basis = 0;
+    report(0, size);
+    while (size > tolerance)
       {
-        relative_residual = reference > 0. ? start / reference : 0.;
-        return 0;
+        if (iterations == parameters.maximum_iterations || !std::isfinite(size))
+          {
+            std::ostringstream message;
+            message << "The velocity-pressure solver has not converged in " << iterations
+                    << " iterations: the residual went from " << start << " to " << size
+                    << ", but " << tolerance
+                    << " is wanted. Try a smaller time step, more \"Maximum iterations\", "
+                       "or a larger \"Relative tolerance\" (section Fluid / Solver).";
+            throw base::UserError(message.str());
+          }
+        if (n_basis == largest_basis)
+          n_basis = 0;
+        if (n_basis == directions.size())
+          {
+            directions.push_back(std::make_unique<Direction>());
+            operators.initialize_velocity(directions.back()->z_u);
+            operators.initialize_velocity(directions.back()->w_u);
+            operators.initialize_pressure(directions.back()->z_p);
+            operators.initialize_pressure(directions.back()->w_p);
+          }
+        Direction &next = *directions[n_basis];
+        {
+          const PhaseTimes::Scope timed_operators(times, Phase::operators);
+          precondition(next, r_u, r_p);
+          operators.apply_stokes(next.w_u,
+                                 next.w_p,
+                                 next.z_u,
+                                 next.z_p,
+                                 density / dt,
+                                 -0.5 * viscosity,
+                                 -divergence_scale);
+        }
+        for (unsigned int k = 0; k < n_basis; ++k)
+          {
+            const Direction &old = *directions[k];
+            const double share =
+              products(old.w_u, old.w_p, next.w_u, next.w_p).xy;
+            next.z_u.add(-share, old.z_u);
+            next.z_p.add(-share, old.z_p);
+            next.w_u.add(-share, old.w_u);
+            next.w_p.add(-share, old.w_p);
+          }
+        const Products dots = products(next.w_u, next.w_p, r_u, r_p);
+        const double alpha  = dots.xx > 0. ? dots.xy / dots.xx : 0.;
+        const double squares =
+          update(u, next.z_u, r_u, next.w_u, alpha) + update(p, next.z_p, r_p, next.w_p, alpha);
+        size = std::sqrt(Utilities::MPI::sum(squares, communicator));
+        report(++iterations, size);
+        if (size > tolerance && dots.xx > 0.)
+          {
+            const double scale = 1. / std::sqrt(dots.xx);
+            for (VectorType *v : {&next.z_u, &next.z_p, &next.w_u, &next.w_p})
+              *v *= scale;
+          }
+        ++n_basis;
       }
-    SolverControl control(parameters.maximum_iterations, tolerance, false, false);
-    typename SolverFGMRES<BlockVector>::AdditionalData data(
-      std::min(50u, parameters.maximum_iterations));
-    SolverFGMRES<BlockVector> solver(control, data);
-    if (parameters.residual_history &&
-        Utilities::MPI::this_mpi_process(space.grid().communicator()) == 0)
-      solver.connect(
-        [&](const unsigned int iteration, const double value, const BlockVector &) {
-          std::cout << "Stokes solver: iteration " << iteration << ", relative residual "
-                    << value / reference << std::endl;
-          return SolverControl::success;
-        });
-    const SystemMatrix matrix{*this};
-    const Preconditioner preconditioner{*this};
-    try
-      {
-        solver.solve(matrix, correction, residual, preconditioner);
-      }
-    catch (const SolverControl::NoConvergence &)
-      {
-        std::ostringstream message;
-        message << "The velocity-pressure solver has not converged in "
-                << control.last_step() << " iterations: the residual went from " << start
-                << " to " << control.last_value() << ", but " << tolerance
-                << " is wanted. Try a smaller time step, more \"Maximum iterations\", or "
-                   "a larger \"Relative tolerance\" (section Fluid / Solver).";
-        throw base::UserError(message.str());
-      }
-    relative_residual = control.last_value() / reference;
-    u.add(1., correction.block(0));
-    p.add(1., correction.block(1));
+    relative_residual = reference > 0. ? size / reference : 0.;
+    if (iterations == 0)
+      return 0;
     if (multigrid.is_singular())
       p.add(-operators.mean_pressure(p));
     space.synchronize(u);
-    return control.last_step();
+    return iterations;
   }
 
 

@@ -142,9 +142,10 @@ namespace mitre::fluid
     void compute_advection(grid::VectorType &dst,
                            const grid::VectorType &velocity,
                            const double time);
+    /// The advection term is weight * advection_new + (1 - weight) * advection_old.
     unsigned int solve(grid::VectorType &u_new,
                        grid::VectorType &p_new,
-                       const grid::VectorType &advection_term,
+                       const double weight,
                        const grid::VectorType &force,
                        const double time,
                        const double dt);

@@ -49,11 +49,28 @@ namespace mitre::fluid
                          const double b,
                          const bool inhomogeneous) const;
 
-    /// dst = (add ? dst : 0) + grad p, with zero pressure on open faces.
-    void apply_gradient(grid::VectorType &dst, grid::VectorType &p, const bool add) const;
+    /// dst = (add ? dst : 0) + factor grad p, with zero pressure on open faces.
+    void apply_gradient(grid::VectorType &dst,
+                        grid::VectorType &p,
+                        const bool add,
+                        const double factor = 1.) const;
 
-    /// dst = div u; @p u must be consistent.
-    void apply_divergence(grid::VectorType &dst, const grid::VectorType &u) const;
+    /// dst = factor div u; @p u must be consistent.
+    void apply_divergence(grid::VectorType &dst,
+                          const grid::VectorType &u,
+                          const double factor = 1.) const;
+
+    /**
+     * The product of a time step, momentum = a u + b laplace(u) + grad p and
+     * mass = factor div u with homogeneous boundary values, in one sweep over the patches.
+     */
+    void apply_stokes(grid::VectorType &momentum,
+                      grid::VectorType &mass,
+                      grid::VectorType &u,
+                      grid::VectorType &p,
+                      const double a,
+                      const double b,
+                      const double factor) const;
 
     /// Largest |div u| over all cells [1/s].
     double max_divergence(const grid::VectorType &u) const;
@@ -88,6 +105,30 @@ namespace mitre::fluid
     }
 
   private:
+    /// The parts of the operators on owned patch @p p; @p padded is room for a halo.
+    void helmholtz_on_patch(grid::VectorType &dst,
+                            const grid::VectorType &u,
+                            const unsigned int p,
+                            const double a,
+                            const double b,
+                            const bool inhomogeneous,
+                            std::vector<double> &padded) const;
+    void gradient_on_patch(grid::VectorType &dst,
+                           const grid::VectorType &pressure,
+                           const unsigned int p,
+                           const bool add,
+                           const double factor,
+                           std::vector<double> &padded) const;
+    void divergence_on_patch(grid::VectorType &dst,
+                             const grid::VectorType &u,
+                             const unsigned int p,
+                             const double factor) const;
+
+    /// Adds factor grad p on coarse-fine interfaces.
+    void add_interface_gradient(grid::VectorType &dst,
+                                const grid::VectorType &pressure,
+                                const double factor) const;
+
     void finish(grid::VectorType &dst) const;
 
     grid::StaggeredSpace<dim> &space;

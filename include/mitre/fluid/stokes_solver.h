@@ -2,10 +2,10 @@
 #define mitre_fluid_stokes_solver_h
 
 #include <deal.II/base/parameter_handler.h>
-#include <deal.II/lac/la_parallel_block_vector.h>
-
 #include <memory>
+#include <vector>
 
+#include <mitre/fluid/phase_times.h>
 #include <mitre/fluid/pressure_multigrid.h>
 #include <mitre/fluid/stokes_operators.h>
 #include <mitre/fluid/velocity_multigrid.h>
@@ -42,7 +42,9 @@ namespace mitre::fluid
    *
    *   (rho / dt) u - (mu / 2) laplace(u) + grad p = r,    div u = g,
    *
-   * by FGMRES, preconditioned by a projection step (B. E. Griffith, J. Comput. Phys. 228
+   * by the generalised conjugate residual method (Eisenstat, Elman and Schultz, SIAM J.
+   * Numer. Anal. 20 (1983) 345-357), which has the same residuals as FGMRES, at hand in
+   * every iteration, and is preconditioned by a projection step (B. E. Griffith, J. Comput. Phys. 228
    * (2009) 7565-7595): a velocity solve (Chebyshev iteration of a degree that follows
    * from mu dt / (rho h^2), or multigrid cycles where that would be large), a pressure
    * Poisson solve (multigrid cycles), and the correction of velocity and pressure.
@@ -51,8 +53,6 @@ namespace mitre::fluid
   class StokesSolver
   {
   public:
-    using BlockVector = dealii::LinearAlgebra::distributed::BlockVector<double>;
-
     StokesSolver(const StokesOperators<dim> &operators,
                  const StokesSolverParameters &parameters,
                  const double density,
@@ -92,9 +92,28 @@ namespace mitre::fluid
       return multigrid;
     }
 
+    /// Time spent in the parts of solve(), and in what else the owner adds.
+    PhaseTimes &phase_times()
+    {
+      return times;
+    }
+
+    const PhaseTimes &phase_times() const
+    {
+      return times;
+    }
+
   private:
-    struct SystemMatrix;
-    struct Preconditioner;
+    /// A direction z of search and its product w with the system, of norm one.
+    struct Direction
+    {
+      grid::VectorType z_u, z_p, w_u, w_p;
+    };
+
+    /// z = (inverse of the projection step) r.
+    void precondition(Direction &direction,
+                      const grid::VectorType &r_u,
+                      const grid::VectorType &r_p);
 
     void solve_velocity(grid::VectorType &u, const grid::VectorType &r) const;
     void apply_poisson(grid::VectorType &dst, grid::VectorType &phi);
@@ -111,6 +130,7 @@ namespace mitre::fluid
     std::unique_ptr<VelocityMultigrid<dim>> velocity_multigrid;
     bool use_velocity_multigrid = false;
     double relative_residual    = 0.;
+    PhaseTimes times;
 
     /// Weight of the divergence in the residual, so that both parts have one unit.
     double divergence_scale = 1.;
@@ -122,7 +142,9 @@ namespace mitre::fluid
 
     mutable grid::VectorType velocity_update, velocity_product;
     grid::VectorType pressure_rhs, pressure_correction, pressure_product;
-    BlockVector correction, residual;
+    grid::VectorType divergence_residual;
+    /// As many as the longest solve so far has needed.
+    std::vector<std::unique_ptr<Direction>> directions;
   };
 } // namespace mitre::fluid
 
