@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <experimental/simd>
 
 #include <mitre/base/exceptions.h>
 #include <mitre/fluid/advection.h>
@@ -18,6 +19,8 @@ namespace mitre::fluid
   {
     if (name == "PPM")
       return AdvectionScheme::ppm;
+    if (name == "monotone PPM")
+      return AdvectionScheme::monotone_ppm;
     if (name == "CUI")
       return AdvectionScheme::cui;
     if (name == "centered")
@@ -25,71 +28,209 @@ namespace mitre::fluid
     if (name == "none")
       return AdvectionScheme::none;
     throw base::UserError("There is no advection scheme \"" + name +
-                          "\"; known are PPM, CUI, centered and none.");
+                          "\"; known are PPM, monotone PPM, CUI, centered and none.");
   }
 
 
   namespace
   {
-    /// Slope between neighbours, limited so that no new extremum arises.
-    inline double limited_slope(const double below, const double here, const double above)
+    // Loops work on as many neighbouring lines at once as the processor has lanes.
+    namespace stdx = std::experimental;
+    using Lanes    = stdx::native_simd<double>;
+    using Mask     = Lanes::mask_type;
+
+    [[gnu::always_inline]] inline Lanes load(const double *x)
     {
-      const double down = here - below, up = above - here;
-      const double bound = 2. * std::min(std::abs(down), std::abs(up));
-      const double mean  = 0.5 * (down + up);
-      const double slope = std::copysign(std::min(std::abs(mean), bound), mean);
-      return down * up > 0. ? slope : 0.;
+      return Lanes(x, stdx::element_aligned);
+    }
+
+    [[gnu::always_inline]] inline Lanes
+    select(const Mask &mask, const Lanes &yes, const Lanes &no)
+    {
+      Lanes result        = no;
+      where(mask, result) = yes;
+      return result;
+    }
+
+    /// |x| with the sign of y.
+    [[gnu::always_inline]] inline Lanes with_sign(const Lanes &x, const Lanes &y)
+    {
+      return select(y < 0., -x, x);
+    }
+
+    /// Slope between neighbours, limited so that no new extremum arises.
+    [[gnu::always_inline]] inline Lanes
+    limited_slope(const Lanes &below, const Lanes &here, const Lanes &above)
+    {
+      const Lanes down = here - below, up = above - here;
+      const Lanes bound = 2. * min(abs(down), abs(up));
+      const Lanes mean  = 0.5 * (down + up);
+      return select(down * up > 0., with_sign(min(abs(mean), bound), mean), 0.);
+    }
+
+    /// How much larger than its neighbours a second difference may be (Colella and
+    /// Sekora, J. Comput. Phys. 227 (2008) 7069-7076).
+    constexpr double curvature_ratio = 1.25;
+
+    /// Cubic upwind interpolation to a face in the normalised variable
+    /// (q - q_up) / (q_down - q_up), limited to be bounded.
+    [[gnu::always_inline]] inline Lanes
+    cui_face(const Lanes &up, const Lanes &center, const Lanes &down)
+    {
+      const Lanes range = down - up;
+      const Mask flat   = abs(range) <= 1e-300;
+      const Lanes r     = (center - up) / select(flat, 1e-300, range);
+      Lanes f           = 5. / 6. * r + 1. / 3.;
+      f                 = select(r <= 2. / 13., 3. * r, f);
+      f                 = select(r > 4. / 5., 1., f);
+      f                 = select(r <= 0. || r >= 1., r, f);
+      return select(flat, center, up + f * range);
     }
 
     /**
-     * Values at the lower and upper end of each of @p size intervals along a line of
-     * values @p q that are @p s apart, written to @p lower and @p upper.
+     * Reconstructs the values at both ends of the intervals of a line, one interval after
+     * the other.
      */
     template <AdvectionScheme scheme>
-    inline void
-    reconstruct(const double *q, const std::ptrdiff_t s, double &lower, double &upper)
+    class Reconstruction
     {
-      const double here = *q;
-      if constexpr (scheme == AdvectionScheme::ppm)
-        {
-          const double below = *(q - s), above = q[s];
-          const double slope       = limited_slope(below, here, above);
-          const double slope_below = limited_slope(*(q - 2 * s), below, here);
-          const double slope_above = limited_slope(here, above, q[2 * s]);
-          double a                 = 0.5 * (below + here) - (slope - slope_below) / 6.;
-          double b                 = 0.5 * (here + above) - (slope_above - slope) / 6.;
+    public:
+      /// Before the first interval, whose value is @p here.
+      [[gnu::always_inline]] void start(const Lanes &before,
+                                        const Lanes &below,
+                                        const Lanes &here,
+                                        const Lanes &above)
+      {
+        if constexpr (scheme == AdvectionScheme::ppm)
+          {
+            curvature_below = before - 2. * below + here;
+            curvature       = below - 2. * here + above;
+            edge            = edge_difference(here - below, curvature_below, curvature);
+          }
+        else
+          (void)before, (void)below, (void)here, (void)above;
+      }
 
-          const bool extremum = (b - here) * (here - a) <= 0.;
-          const double range = b - a, middle = here - 0.5 * (a + b);
-          const double a_steep = 3. * here - 2. * b, b_steep = 3. * here - 2. * a;
-          const bool low  = range * middle > range * range / 6.;
-          const bool high = -range * range / 6. > range * middle;
-          a               = extremum ? here : (low ? a_steep : a);
-          b               = extremum ? here : (high ? b_steep : b);
-          lower           = a;
-          upper           = b;
-        }
-      else if constexpr (scheme == AdvectionScheme::cui)
-        {
-          // cubic upwind interpolation in the normalised variable (q - q_up) /
-          // (q_down - q_up), limited to be bounded
-          const auto face = [](const double up, const double center, const double down) {
-            const double range = down - up;
-            const double r = (center - up) / (std::abs(range) > 1e-300 ? range : 1e-300);
-            double f       = 5. / 6. * r + 1. / 3.;
-            f              = r <= 2. / 13. ? 3. * r : f;
-            f              = r > 4. / 5. ? 1. : f;
-            f              = (r <= 0. || r >= 1.) ? r : f;
-            return std::abs(range) > 1e-300 ? up + f * range : center;
-          };
-          upper = face(*(q - s), here, q[s]);
-          lower = face(q[s], here, *(q - s));
-        }
+      /// The ends of the interval with the value @p here.
+      [[gnu::always_inline]] void next(const Lanes &before,
+                                       const Lanes &below,
+                                       const Lanes &here,
+                                       const Lanes &above,
+                                       const Lanes &after,
+                                       Lanes &lower,
+                                       Lanes &upper)
+      {
+        if constexpr (scheme == AdvectionScheme::ppm)
+          {
+            const Lanes curvature_above = here - 2. * above + after;
+            const Lanes a               = edge - (here - below);
+            const Lanes b     = edge_difference(above - here, curvature, curvature_above);
+            const Lanes twist = (here - before) * (after - here);
+            const Lanes a_size = abs(a), b_size = abs(b);
+            lower            = here + a;
+            upper            = here + b;
+            const Mask plain = (a * b < 0. && twist > 0. && a_size <= 2. * b_size &&
+                                b_size <= 2. * a_size) ||
+                               (a_size + b_size == 0.);
+            if (!all_of(plain))
+              {
+                // at an extremum the parabola's curvature is limited, elsewhere the
+                // parabola is made monotone
+                const Lanes whole = 6. * (a + b), size = abs(whole);
+                const Lanes least =
+                  min(abs(curvature), min(abs(curvature_below), abs(curvature_above)));
+                const Mask same = whole * curvature > 0. &&
+                                  whole * curvature_below > 0. &&
+                                  whole * curvature_above > 0.;
+                const Lanes bound = select(same, curvature_ratio * least, 0.);
+                const Lanes share =
+                  select(size > bound, bound / max(size, Lanes(1e-300)), 1.);
+                const Mask extremum = a * b >= 0. || twist <= 0.;
+                lower =
+                  here +
+                  select(extremum, share * a, select(a_size > 2. * b_size, -2. * b, a));
+                upper =
+                  here +
+                  select(extremum, share * b, select(b_size > 2. * a_size, -2. * a, b));
+              }
+            curvature_below = curvature;
+            curvature       = curvature_above;
+            edge            = b;
+          }
+        else if constexpr (scheme == AdvectionScheme::monotone_ppm)
+          {
+            const Lanes slope       = limited_slope(below, here, above);
+            const Lanes slope_below = limited_slope(before, below, here);
+            const Lanes slope_above = limited_slope(here, above, after);
+            const Lanes a           = 0.5 * (below - here) - (slope - slope_below) / 6.;
+            const Lanes b           = 0.5 * (above - here) - (slope_above - slope) / 6.;
+            const Mask extremum     = a * b >= 0.;
+            lower = here + select(extremum, 0., select(abs(a) > 2. * abs(b), -2. * b, a));
+            upper = here + select(extremum, 0., select(abs(b) > 2. * abs(a), -2. * a, b));
+          }
+        else if constexpr (scheme == AdvectionScheme::cui)
+          {
+            upper = cui_face(below, here, above);
+            lower = cui_face(above, here, below);
+            (void)before, (void)after;
+          }
+        else
+          {
+            lower = 0.5 * (here + below);
+            upper = 0.5 * (here + above);
+            (void)before, (void)after;
+          }
+      }
+
+    private:
+      /**
+       * The difference from the value here of that halfway to the next one, which is
+       * @p step larger, by the cubic whose means are the values around it. Where that
+       * does not lie between the two, its curvature is limited to those of both.
+       */
+      [[gnu::always_inline]] static Lanes edge_difference(const Lanes &step,
+                                                          const Lanes &curvature_here,
+                                                          const Lanes &curvature_above)
+      {
+        const Lanes result = 0.5 * step - (1. / 12.) * (curvature_here + curvature_above);
+        const Mask outside = result * (step - result) < 0.;
+        if (none_of(outside))
+          return result;
+        const Lanes wanted = 3. * (step - 2. * result);
+        const Lanes size   = min(
+          abs(wanted), curvature_ratio * min(abs(curvature_here), abs(curvature_above)));
+        const Mask same = wanted * curvature_here > 0. && wanted * curvature_above > 0.;
+        const Lanes limited = select(same, with_sign(size, wanted), 0.);
+        return select(outside, 0.5 * step - (1. / 6.) * limited, result);
+      }
+
+      /// Of the interval below, of this one, and the value between the two less the
+      /// lower one.
+      Lanes curvature_below = 0., curvature = 0., edge = 0.;
+    };
+
+
+    /// Writes the first @p count lanes, or all if there are fewer.
+    [[gnu::always_inline]] inline void
+    store(const Lanes &value, double *to, const int count)
+    {
+      if (count >= static_cast<int>(Lanes::size()))
+        value.copy_to(to, stdx::element_aligned);
       else
-        {
-          lower = 0.5 * (here + *(q - s));
-          upper = 0.5 * (here + q[s]);
-        }
+        for (int lane = 0; lane < count; ++lane)
+          to[lane] = value[lane];
+    }
+
+    /// Flux with the mean of two advecting velocities and the upwind one of two values.
+    template <AdvectionScheme scheme>
+    [[gnu::always_inline]] inline Lanes
+    upwind_flux(const Lanes &speed_twice, const Lanes &below, const Lanes &above)
+    {
+      const Lanes speed = 0.5 * speed_twice;
+      if constexpr (scheme == AdvectionScheme::centered)
+        return speed * above;
+      else
+        return speed * select(speed > 0., below, above);
     }
   } // namespace
 
@@ -194,7 +335,15 @@ namespace mitre::fluid
       owned, ghost_set, patch_grid.communicator());
     received.reinit(partitioner);
     for (Match &match : matches)
-      match.coarse = partitioner->global_to_local(match.coarse);
+      {
+        match.coarse = partitioner->global_to_local(match.coarse);
+        received.local_element(match.coarse) += std::abs(match.weight);
+      }
+    received.compress(VectorOperation::add);
+    for (unsigned int i = 0; i < received.locally_owned_size(); ++i)
+      if (received.local_element(i) != 0.)
+        receivers.push_back(i);
+    received = 0.;
   }
 
 
@@ -271,10 +420,14 @@ namespace mitre::fluid
     const int g                            = halo.width();
     const bool mixed_levels                = patch_grid.has_coarse_fine_interfaces();
 
+    // rows are read, and buffers of rows written, beyond the end by less than two blocks
+    constexpr std::size_t slack = 2 * Lanes::size();
     std::array<std::vector<double>, dim> padded;
     for (unsigned int c = 0; c < dim; ++c)
-      padded[c].assign(halo.size(c), 0.);
-    std::vector<double> lower(halo.size(0)), upper(halo.size(0)), flux(halo.size(0));
+      padded[c].assign(halo.size(c) + slack, 0.);
+    std::vector<double> flux(halo.size(0));
+    const std::size_t row_size = patch_grid.n_cells_per_side() + 3 + slack;
+    std::vector<double> lower(row_size), upper(row_size);
 
     for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
       {
@@ -302,24 +455,6 @@ namespace mitre::fluid
 
             for (unsigned int d = 0; d < dim; ++d)
               {
-                // Fluxes stand at the lower ends of the control volumes, one more at the
-                // end; parabolas are needed on the volumes on both sides of each.
-                std::array<int, 3> begin{{0, 0, 0}}, end = size;
-                begin[d] = -1;
-                end[d]   = size[d] + 1;
-                for (int k = begin[2]; k < end[2]; ++k)
-                  for (int j = begin[1]; j < end[1]; ++j)
-                    {
-                      const std::ptrdiff_t row =
-                        j * stride[1] + (dim == 3 ? k * stride[2] : 0);
-                      const double *line = q + row;
-                      double *lo         = lower.data() + first + row,
-                             *up         = upper.data() + first + row;
-                      for (int i = begin[0]; i < end[0]; ++i)
-                        reconstruct<scheme>(line + i, stride[d], *(lo + i), *(up + i));
-                    }
-
-                // advecting velocity, and upwinding
                 const auto ed = halo.extents(d);
                 std::array<std::ptrdiff_t, 3> stride_d{{1, 1, 1}};
                 for (unsigned int b = 1; b < dim; ++b)
@@ -328,30 +463,81 @@ namespace mitre::fluid
                 for (unsigned int b = 0; b < dim; ++b)
                   first_d += g * stride_d[b];
                 const double *advecting = padded[d].data() + first_d;
-                // the two values that the advecting velocity is the mean of
+                // the advecting velocity is the mean of two values this far apart
                 const std::ptrdiff_t back = stride_d[c];
 
-                begin[d] = 0;
-                end[d]   = size[d] + 1;
-                for (int k = begin[2]; k < end[2]; ++k)
-                  for (int j = begin[1]; j < end[1]; ++j)
-                    {
-                      const std::ptrdiff_t row =
-                        first + j * stride[1] + (dim == 3 ? k * stride[2] : 0);
-                      const double *a =
-                        advecting + j * stride_d[1] + (dim == 3 ? k * stride_d[2] : 0);
-                      const double *lo = lower.data() + row, *up = upper.data() + row;
-                      double *f = flux.data() + row;
-                      for (int i = begin[0]; i < end[0]; ++i)
+                // Fluxes stand at the lower ends of the control volumes, one more at the
+                // end; parabolas are needed on the volumes on both sides of each.
+                constexpr int width = Lanes::size();
+                if (d == 0)
+                  {
+                    for (int k = 0; k < size[2]; ++k)
+                      for (int j = 0; j < size[1]; ++j)
                         {
-                          const double speed = 0.5 * (*(a + i - back) + a[i]);
-                          const double below = *(up + i - stride[d]), above = lo[i];
-                          if constexpr (scheme == AdvectionScheme::centered)
-                            f[i] = speed * above;
-                          else
-                            f[i] = speed * (speed > 0. ? below : above);
+                          const std::ptrdiff_t row =
+                            j * stride[1] + (dim == 3 ? k * stride[2] : 0);
+                          const double *a = advecting + j * stride_d[1] +
+                                            (dim == 3 ? k * stride_d[2] : 0);
+                          for (int i = 0; i < size[0] + 2; i += width)
+                            {
+                              const double *x   = q + row + i - 1;
+                              const Lanes below = load(x - 1), here = load(x),
+                                          above = load(x + 1), before = load(x - 2);
+                              Lanes lo, up;
+                              Reconstruction<scheme> reconstruction;
+                              reconstruction.start(before, below, here, above);
+                              reconstruction.next(
+                                before, below, here, above, load(x + 2), lo, up);
+                              lo.copy_to(lower.data() + i, stdx::element_aligned);
+                              up.copy_to(upper.data() + i, stdx::element_aligned);
+                            }
+                          double *f = flux.data() + first + row;
+                          for (int i = 0; i < size[0] + 1; i += width)
+                            store(upwind_flux<scheme>(load(a + i) + load(a + i - back),
+                                                      load(upper.data() + i),
+                                                      load(lower.data() + i + 1)),
+                                  f + i,
+                                  size[0] + 1 - i);
                         }
-                    }
+                  }
+                else
+                  {
+                    // the direction that is neither that of rows nor that of fluxes
+                    const unsigned int o = (dim == 3 ? 3 - d : 2);
+                    for (int k = 0; k < (dim == 3 ? size[o] : 1); ++k)
+                      for (int i = 0; i < size[0]; i += width)
+                        {
+                          const std::ptrdiff_t line = i + (dim == 3 ? k * stride[o] : 0);
+                          const double *a =
+                            advecting + i + (dim == 3 ? k * stride_d[o] : 0);
+                          double *f       = flux.data() + first + line;
+                          const double *x = q + line - stride[d];
+                          Lanes before    = load(x - 2 * stride[d]),
+                                below = load(x - stride[d]), here = load(x),
+                                above = load(x + stride[d]), lo, up, up_below = 0.;
+                          Reconstruction<scheme> reconstruction;
+                          reconstruction.start(before, below, here, above);
+                          for (int j = -1; j <= size[d]; ++j)
+                            {
+                              const Lanes after = load(q + line + (j + 2) * stride[d]);
+                              reconstruction.next(
+                                before, below, here, above, after, lo, up);
+                              if (j >= 0)
+                                {
+                                  const double *speed = a + j * stride_d[d];
+                                  store(upwind_flux<scheme>(
+                                          load(speed) + load(speed - back), up_below, lo),
+                                        f + j * stride[d],
+                                        size[0] - i);
+                                }
+                              up_below = up;
+                              before   = below;
+                              below    = here;
+                              here     = above;
+                              above    = after;
+                            }
+                        }
+                  }
 
                 if (mixed_levels)
                   match_fluxes(p, c, d, padded[c], flux);
@@ -407,6 +593,8 @@ namespace mitre::fluid
     const bool inhomogeneous   = static_cast<bool>(prescribed);
     if (scheme == AdvectionScheme::ppm)
       apply_scheme<AdvectionScheme::ppm>(dst, imported, inhomogeneous);
+    else if (scheme == AdvectionScheme::monotone_ppm)
+      apply_scheme<AdvectionScheme::monotone_ppm>(dst, imported, inhomogeneous);
     else if (scheme == AdvectionScheme::cui)
       apply_scheme<AdvectionScheme::cui>(dst, imported, inhomogeneous);
     else
@@ -414,9 +602,11 @@ namespace mitre::fluid
     if (space.grid().has_coarse_fine_interfaces())
       {
         received.compress(VectorOperation::add);
-        for (unsigned int i = 0; i < dst.locally_owned_size(); ++i)
-          dst.local_element(i) += received.local_element(i);
-        received = 0.;
+        for (const unsigned int i : receivers)
+          {
+            dst.local_element(i) += received.local_element(i);
+            received.local_element(i) = 0.;
+          }
         space.collect(dst);
         dst.scale(space.inverse_volumes());
         space.synchronize(dst);

@@ -21,8 +21,9 @@ namespace mitre::fluid
                       "Dynamic viscosity [g/(cm s)] (= poise).");
     prm.declare_entry("Advection scheme",
                       "PPM",
-                      Patterns::Selection("PPM|CUI|centered|none"),
-                      "PPM: monotonised piecewise parabolic, upwind; CUI: limited cubic "
+                      Patterns::Selection("PPM|monotone PPM|CUI|centered|none"),
+                      "PPM: piecewise parabolic, upwind, limited so that smooth extrema "
+                      "are kept; monotone PPM: limited everywhere; CUI: limited cubic "
                       "upwind interpolation; centered; none: Stokes flow.");
     prm.enter_subsection("Solver");
     StokesSolverParameters::declare_parameters(prm);
@@ -212,13 +213,14 @@ namespace mitre::fluid
       constexpr std::size_t width = 8;
       std::array<double, width> sum{};
       const double a = parameters.density / dt, b = -parameters.density * weight,
-                   c = -parameters.density * (1. - weight);
+                   c    = -parameters.density * (1. - weight);
       double *r         = rhs.begin();
       const double *now = u.begin(), *guess = velocity.begin(), *f = force.begin(),
                    *more = work.begin(), *advection_now = advection_new.begin(),
                    *advection_before = advection_old.begin();
-      const auto entry = [&](const std::size_t i, const std::size_t k) {
-        const double rest = b * advection_now[i] + c * advection_before[i] + f[i] + more[i];
+      const auto entry               = [&](const std::size_t i, const std::size_t k) {
+        const double rest =
+          b * advection_now[i] + c * advection_before[i] + f[i] + more[i];
         const double whole = a * now[i] + rest;
         r[i] += a * (now[i] - guess[i]) + rest;
         sum[k] += whole * whole;
@@ -274,16 +276,15 @@ namespace mitre::fluid
         // (2.16): extrapolation from the last two times
         const double ratio = dt / previous_dt;
         compute_advection(advection_new, u, time);
-        const double reach   = n_steps_since_change >= 2 ? ratio : 0.;
-        const auto extrapolate = [reach](VectorType &next,
-                                         const VectorType &now,
-                                         const VectorType &before) {
-          double *x = next.begin();
-          const double *y = now.begin(), *z = before.begin();
-          const std::size_t n_entries = next.locally_owned_size();
-          for (std::size_t i = 0; i < n_entries; ++i)
-            x[i] = y[i] + reach * (y[i] - z[i]);
-        };
+        const double reach = n_steps_since_change >= 2 ? ratio : 0.;
+        const auto extrapolate =
+          [reach](VectorType &next, const VectorType &now, const VectorType &before) {
+            double *x       = next.begin();
+            const double *y = now.begin(), *z = before.begin();
+            const std::size_t n_entries = next.locally_owned_size();
+            for (std::size_t i = 0; i < n_entries; ++i)
+              x[i] = y[i] + reach * (y[i] - z[i]);
+          };
         extrapolate(u_new, u, u_old);
         extrapolate(p_new, p, p_old);
         iterations = solve(u_new, p_new, 1. + 0.5 * ratio, force, time, dt);

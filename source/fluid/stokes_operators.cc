@@ -68,6 +68,21 @@ namespace mitre::fluid
             coarse_faces.push_back({dof, cell, area});
           }
       }
+
+    // What a pressure without pattern reaches is all that any pressure can reach.
+    VectorType pressure;
+    initialize_pressure(pressure);
+    for (std::size_t i = 0; i < pressure.locally_owned_size(); ++i)
+      pressure.local_element(i) = 1. + 0.5 * std::sin(1. + 1.7 * i * i);
+    interface_forces = 0.;
+    set_interface_forces(pressure);
+    space.collect_interfaces(interface_forces);
+    interface_copies = space.local_copies_among(interface_forces);
+    space.collect_local_copies(interface_forces);
+    space.collect_remote_copies(interface_forces);
+    for (std::size_t i = 0; i < interface_forces.locally_owned_size(); ++i)
+      if (interface_forces.local_element(i) != 0.)
+        interface_masters.push_back(i);
   }
 
 
@@ -190,7 +205,8 @@ namespace mitre::fluid
                                                  const double factor) const
   {
     const unsigned int nz = (dim == 3 ? n : 1);
-    double *out = dst.begin() + static_cast<std::size_t>(p) * cell_halo.n_cells_per_patch();
+    double *out =
+      dst.begin() + static_cast<std::size_t>(p) * cell_halo.n_cells_per_patch();
     const auto &patch = patch_grid.patch(p);
     std::array<const double *, 3> in{};
     std::array<double, 3> w{};
@@ -217,13 +233,8 @@ namespace mitre::fluid
 
 
   template <int dim>
-  void StokesOperators<dim>::add_interface_gradient(VectorType &dst,
-                                                    const VectorType &pressure,
-                                                    const double factor) const
+  void StokesOperators<dim>::set_interface_forces(const VectorType &pressure) const
   {
-    if (!patch_grid.has_coarse_fine_interfaces())
-      return;
-    interface_forces      = 0.;
     const double *p_value = pressure.begin();
     const auto &table     = space.coarse_fine_faces();
     for (unsigned int row = 0; row < table.n_rows(); ++row)
@@ -231,9 +242,29 @@ namespace mitre::fluid
         interface_cells[row].second * p_value[interface_cells[row].first];
     for (const CoarseFace &face : coarse_faces)
       interface_forces.local_element(face.dof) = face.area * p_value[face.cell];
-    space.collect(interface_forces);
-    interface_forces.scale(space.inverse_volumes());
-    dst.add(factor, interface_forces);
+  }
+
+
+  template <int dim>
+  void StokesOperators<dim>::add_interface_gradient(VectorType &dst,
+                                                    const VectorType &pressure,
+                                                    const double factor) const
+  {
+    if (!patch_grid.has_coarse_fine_interfaces())
+      return;
+    for (const std::size_t master : interface_masters)
+      interface_forces.local_element(master) = 0.;
+    set_interface_forces(pressure);
+    space.collect_interfaces(interface_forces);
+    for (const auto &[copy, master] : interface_copies)
+      {
+        interface_forces.local_element(master) += interface_forces.local_element(copy);
+        interface_forces.local_element(copy) = 0.;
+      }
+    space.collect_remote_copies(interface_forces);
+    for (const std::size_t master : interface_masters)
+      dst.local_element(master) += factor * interface_forces.local_element(master) *
+                                   space.inverse_volumes().local_element(master);
   }
 
 

@@ -323,9 +323,9 @@ namespace mitre::fluid
     }
     operators.apply_gradient(z_u, pressure_correction, true, -1.);
     // p = (rho / dt) phi - (mu / 2) div grad phi
-    double *p              = z_p.begin();
-    const double *phi      = pressure_correction.begin(), *g = pressure_rhs.begin();
-    const double a         = density / dt, b = 0.5 * viscosity;
+    double *p         = z_p.begin();
+    const double *phi = pressure_correction.begin(), *g = pressure_rhs.begin();
+    const double a = density / dt, b = 0.5 * viscosity;
     const std::size_t size = z_p.locally_owned_size();
     for (std::size_t i = 0; i < size; ++i)
       p[i] = a * phi[i] + b * g[i];
@@ -352,8 +352,8 @@ namespace mitre::fluid
       base::UserError("The flow has become infinite or undefined. The time step "
                       "is probably too large for the stiffness of the structure "
                       "or the speed of the flow."));
-    const bool print = parameters.residual_history &&
-                       Utilities::MPI::this_mpi_process(communicator) == 0;
+    const bool print =
+      parameters.residual_history && Utilities::MPI::this_mpi_process(communicator) == 0;
     const auto report = [&](const unsigned int iteration, const double value) {
       if (print)
         std::cout << "Stokes solver: iteration " << iteration << ", relative residual "
@@ -368,11 +368,12 @@ namespace mitre::fluid
         if (iterations == parameters.maximum_iterations || !std::isfinite(size))
           {
             std::ostringstream message;
-            message << "The velocity-pressure solver has not converged in " << iterations
-                    << " iterations: the residual went from " << start << " to " << size
-                    << ", but " << tolerance
-                    << " is wanted. Try a smaller time step, more \"Maximum iterations\", "
-                       "or a larger \"Relative tolerance\" (section Fluid / Solver).";
+            message
+              << "The velocity-pressure solver has not converged in " << iterations
+              << " iterations: the residual went from " << start << " to " << size
+              << ", but " << tolerance
+              << " is wanted. Try a smaller time step, more \"Maximum iterations\", "
+                 "or a larger \"Relative tolerance\" (section Fluid / Solver).";
             throw base::UserError(message.str());
           }
         if (n_basis == largest_basis)
@@ -400,17 +401,16 @@ namespace mitre::fluid
         for (unsigned int k = 0; k < n_basis; ++k)
           {
             const Direction &old = *directions[k];
-            const double share =
-              products(old.w_u, old.w_p, next.w_u, next.w_p).xy;
+            const double share   = products(old.w_u, old.w_p, next.w_u, next.w_p).xy;
             next.z_u.add(-share, old.z_u);
             next.z_p.add(-share, old.z_p);
             next.w_u.add(-share, old.w_u);
             next.w_p.add(-share, old.w_p);
           }
-        const Products dots = products(next.w_u, next.w_p, r_u, r_p);
-        const double alpha  = dots.xx > 0. ? dots.xy / dots.xx : 0.;
-        const double squares =
-          update(u, next.z_u, r_u, next.w_u, alpha) + update(p, next.z_p, r_p, next.w_p, alpha);
+        const Products dots  = products(next.w_u, next.w_p, r_u, r_p);
+        const double alpha   = dots.xx > 0. ? dots.xy / dots.xx : 0.;
+        const double squares = update(u, next.z_u, r_u, next.w_u, alpha) +
+                               update(p, next.z_p, r_p, next.w_p, alpha);
         size = std::sqrt(Utilities::MPI::sum(squares, communicator));
         report(++iterations, size);
         if (size > tolerance && dots.xx > 0.)

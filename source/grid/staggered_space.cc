@@ -704,31 +704,74 @@ namespace mitre::grid
   template <int dim>
   void StaggeredSpace<dim>::collect(VectorType &f) const
   {
+    collect_interfaces(f);
+    collect_local_copies(f);
+    collect_remote_copies(f);
+  }
+
+
+  template <int dim>
+  void StaggeredSpace<dim>::collect_interfaces(VectorType &f) const
+  {
     f.zero_out_ghost_values();
+    if (!patch_grid.has_coarse_fine_interfaces())
+      return;
     double *values = f.begin();
-    if (patch_grid.has_coarse_fine_interfaces())
+    for (unsigned int row = 0; row < interface_faces.n_rows(); ++row)
       {
-        for (unsigned int row = 0; row < interface_faces.n_rows(); ++row)
-          {
-            const double value = values[interface_faces.destination(row)];
-            values[interface_faces.destination(row)] = 0.;
-            if (value != 0.)
-              interface_faces.apply_transpose(row, value, values);
-          }
-        f.compress(VectorOperation::add);
+        const double value = values[interface_faces.destination(row)];
+        values[interface_faces.destination(row)] = 0.;
+        if (value != 0.)
+          interface_faces.apply_transpose(row, value, values);
       }
+    f.compress(VectorOperation::add);
+  }
+
+
+  template <int dim>
+  template <typename Operation>
+  void StaggeredSpace<dim>::for_each_local_copy(const Operation &operation) const
+  {
     const unsigned int n_plane = Utilities::fixed_power<dim - 1>(n);
     for (const PlaneCopy &copy : plane_copies)
       {
         const unsigned int s = stride(copy.c, copy.c);
         for (unsigned int i = 0; i < n_plane / s; ++i)
           for (unsigned int j = 0; j < s; ++j)
-            {
-              values[copy.master + i * s * (n + 1) + j] +=
-                values[copy.copy + i * s * (n + 1) + j];
-              values[copy.copy + i * s * (n + 1) + j] = 0.;
-            }
+            operation(copy.copy + i * s * (n + 1) + j, copy.master + i * s * (n + 1) + j);
       }
+  }
+
+
+  template <int dim>
+  void StaggeredSpace<dim>::collect_local_copies(VectorType &f) const
+  {
+    double *values = f.begin();
+    for_each_local_copy([values](const std::size_t copy, const std::size_t master) {
+      values[master] += values[copy];
+      values[copy] = 0.;
+    });
+  }
+
+
+  template <int dim>
+  std::vector<std::pair<std::size_t, std::size_t>>
+  StaggeredSpace<dim>::local_copies_among(const VectorType &f) const
+  {
+    std::vector<std::pair<std::size_t, std::size_t>> pairs;
+    const double *values = f.begin();
+    for_each_local_copy([&](const std::size_t copy, const std::size_t master) {
+      if (values[copy] != 0.)
+        pairs.emplace_back(copy, master);
+    });
+    return pairs;
+  }
+
+
+  template <int dim>
+  void StaggeredSpace<dim>::collect_remote_copies(VectorType &f) const
+  {
+    double *values = f.begin();
     for (std::size_t i = 0; i < remote_copies.size(); ++i)
       {
         values[remote_masters[i]] += values[remote_copies[i].first];

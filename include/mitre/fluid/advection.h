@@ -11,9 +11,13 @@ namespace mitre::fluid
   /// How the advected velocity is reconstructed between its grid positions.
   enum class AdvectionScheme : unsigned char
   {
-    /// Monotonised piecewise parabolic, upwinded (Colella and Woodward, J. Comput. Phys.
-    /// 54 (1984) 174-201).
+    /// Piecewise parabolic, upwinded, monotonised but where there is a smooth extremum
+    /// (Colella and Sekora, J. Comput. Phys. 227 (2008) 7069-7076; of the same kind as
+    /// Rider, Greenough and Kamm, J. Comput. Phys. 225 (2007) 1827-1848).
     ppm,
+    /// Piecewise parabolic, upwinded, monotonised everywhere, which flattens extrema
+    /// (Colella and Woodward, J. Comput. Phys. 54 (1984) 174-201).
+    monotone_ppm,
     /// Cubic upwind interpolation, limited (third order where smooth; Waterson and
     /// Deconinck, J. Comput. Phys. 224 (2007) 182-207).
     cui,
@@ -23,7 +27,8 @@ namespace mitre::fluid
     none
   };
 
-  /// "PPM", "CUI", "centered", "none"; base::UserError for any other name.
+  /// "PPM", "monotone PPM", "CUI", "centered", "none"; base::UserError for any other
+  /// name.
   AdvectionScheme advection_scheme(const std::string &name);
 
 
@@ -88,8 +93,9 @@ namespace mitre::fluid
     std::vector<Match> matches;
     /// Per patch, component, direction and end.
     std::vector<unsigned int> match_starts;
-    /// Sums of what coarse faces receive from fine patches.
+    /// Sums of what coarse faces receive from fine patches, and the owned ones that do.
     grid::VectorType received;
+    std::vector<unsigned int> receivers;
   };
 } // namespace mitre::fluid
 

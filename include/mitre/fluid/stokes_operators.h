@@ -62,7 +62,8 @@ namespace mitre::fluid
 
     /**
      * The product of a time step, momentum = a u + b laplace(u) + grad p and
-     * mass = factor div u with homogeneous boundary values, in one sweep over the patches.
+     * mass = factor div u with homogeneous boundary values, in one sweep over the
+     * patches.
      */
     void apply_stokes(grid::VectorType &momentum,
                       grid::VectorType &mass,
@@ -149,6 +150,10 @@ namespace mitre::fluid
       double area;
     };
     std::vector<CoarseFace> coarse_faces;
+    void set_interface_forces(const grid::VectorType &pressure) const;
+    /// Masters that forces on interfaces reach, and copies that hand them on.
+    std::vector<std::size_t> interface_masters;
+    std::vector<std::pair<std::size_t, std::size_t>> interface_copies;
   };
 } // namespace mitre::fluid
 

@@ -2,6 +2,7 @@
 #define mitre_fluid_stokes_solver_h
 
 #include <deal.II/base/parameter_handler.h>
+
 #include <memory>
 #include <vector>
 
@@ -44,10 +45,11 @@ namespace mitre::fluid
    *
    * by the generalised conjugate residual method (Eisenstat, Elman and Schultz, SIAM J.
    * Numer. Anal. 20 (1983) 345-357), which has the same residuals as FGMRES, at hand in
-   * every iteration, and is preconditioned by a projection step (B. E. Griffith, J. Comput. Phys. 228
-   * (2009) 7565-7595): a velocity solve (Chebyshev iteration of a degree that follows
-   * from mu dt / (rho h^2), or multigrid cycles where that would be large), a pressure
-   * Poisson solve (multigrid cycles), and the correction of velocity and pressure.
+   * every iteration, and is preconditioned by a projection step (B. E. Griffith, J.
+   * Comput. Phys. 228 (2009) 7565-7595): a velocity solve (Chebyshev iteration of a
+   * degree that follows from mu dt / (rho h^2), or multigrid cycles where that would be
+   * large), a pressure Poisson solve (multigrid cycles), and the correction of velocity
+   * and pressure.
    */
   template <int dim>
   class StokesSolver

@@ -245,6 +245,18 @@ namespace mitre::grid
      */
     void collect(VectorType &f) const;
 
+    /// The three parts of collect(): fine faces on coarse-fine interfaces, other copies
+    /// whose master is on the same rank, and those whose master is not. The first and
+    /// the last are collective.
+    void collect_interfaces(VectorType &f) const;
+    void collect_local_copies(VectorType &f) const;
+    void collect_remote_copies(VectorType &f) const;
+
+    /// Pairs of copy and master that collect_local_copies() adds up, as far as @p f is
+    /// not zero on the copy.
+    std::vector<std::pair<std::size_t, std::size_t>>
+    local_copies_among(const VectorType &f) const;
+
     /// Control volume of a master [cm^dim]; zero for copies.
     const VectorType &volumes() const
     {
@@ -342,6 +354,8 @@ namespace mitre::grid
       unsigned int c;
     };
     std::vector<PlaneCopy> plane_copies;
+    template <typename Operation>
+    void for_each_local_copy(const Operation &operation) const;
 
     /// The same where the master belongs to another rank.
     std::vector<std::pair<std::size_t, dealii::types::global_dof_index>> remote_copies;

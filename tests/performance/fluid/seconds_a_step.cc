@@ -49,14 +49,15 @@ namespace
         for (std::size_t i = 0; i < size; ++i)
           a[i] = b[i] + 3. * c[i];
         b[repetition] = a[size - 1 - repetition];
-        best          = std::min(best, Utilities::MPI::max(seconds_since(start), MPI_COMM_WORLD));
+        best = std::min(best, Utilities::MPI::max(seconds_since(start), MPI_COMM_WORLD));
       }
     return 24. * size / best * Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
   }
 
   /// Seconds of a sweep of the 7-point stencil over this rank's share of the cells,
   /// stored as one array with a layer around it.
-  double seven_point_seconds(const unsigned int nx, const unsigned int ny, const unsigned int nz)
+  double
+  seven_point_seconds(const unsigned int nx, const unsigned int ny, const unsigned int nz)
   {
     const std::size_t sy = nx + 2, sz = sy * (ny + 2);
     std::vector<double> u(sz * (nz + 2), 1.), v(u.size(), 0.);
@@ -86,7 +87,8 @@ namespace
                 const double tolerance)
   {
     const double memory_before = resident_memory();
-    grid::PatchGridParameters<3> box = grid_tests::unit_box<3>(64, name == "adaptive" ? 2 : 1, "xyz");
+    grid::PatchGridParameters<3> box =
+      grid_tests::unit_box<3>(64, name == "adaptive" ? 2 : 1, "xyz");
     box.cells_per_side = n_patch;
     box.minimum_level -= (n_patch == 16 ? 1 : 0);
     box.maximum_level -= (n_patch == 16 ? 1 : 0);
@@ -119,7 +121,7 @@ namespace
         const_cast<fluid::StokesSolver<3> &>(flow.solver()).phase_times().reset();
         const auto start       = Clock::now();
         const unsigned int its = flow.advance(step * dt, dt, force);
-        const double seconds   = Utilities::MPI::max(seconds_since(start), MPI_COMM_WORLD);
+        const double seconds = Utilities::MPI::max(seconds_since(start), MPI_COMM_WORLD);
         if (step < 5)
           continue;
         times.push_back(seconds);
@@ -132,21 +134,21 @@ namespace
     const double cells = patch_grid.n_global_cells();
 
     double error[3] = {0., 0., 0.};
-    grid_tests::for_each_face(flow.space(),
-                              [&](const std::size_t entry,
-                                  const unsigned int,
-                                  const unsigned int c,
-                                  const Point<3> &x) {
-                                const double w = flow.space().volumes().local_element(entry);
-                                if (w == 0.)
-                                  return;
-                                const double e =
-                                  std::abs(flow.velocity().local_element(entry) -
-                                           exact(x, c, n_steps * dt));
-                                error[0] += e * w;
-                                error[1] += e * e * w;
-                                error[2] = std::max(error[2], e);
-                              });
+    grid_tests::for_each_face(
+      flow.space(),
+      [&](const std::size_t entry,
+          const unsigned int,
+          const unsigned int c,
+          const Point<3> &x) {
+        const double w = flow.space().volumes().local_element(entry);
+        if (w == 0.)
+          return;
+        const double e =
+          std::abs(flow.velocity().local_element(entry) - exact(x, c, n_steps * dt));
+        error[0] += e * w;
+        error[1] += e * e * w;
+        error[2] = std::max(error[2], e);
+      });
     const double l1  = Utilities::MPI::sum(error[0], MPI_COMM_WORLD),
                  l2  = std::sqrt(Utilities::MPI::sum(error[1], MPI_COMM_WORLD)),
                  max = Utilities::MPI::max(error[2], MPI_COMM_WORLD);
