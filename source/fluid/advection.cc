@@ -348,6 +348,67 @@ namespace mitre::fluid
 
 
   /**
+   * Where the plane at an end of patch @p p is a coarse-fine interface with the patch on
+   * its coarser side, the patch has the inner halves of the control volumes of component
+   * @p c, which is normal to it; their fluxes in direction @p d are moved to the middle
+   * of these halves. At the ends of such a plane the next patch has halves with the same
+   * sides, and moves those fluxes too. The other halves of these sides belong to finer
+   * patches, whose fluxes stand in the middle of theirs.
+   */
+  template <int dim>
+  void Advection<dim>::shift_fluxes(const unsigned int p,
+                                    const unsigned int c,
+                                    const unsigned int d,
+                                    std::vector<double> &flux) const
+  {
+    const grid::PatchGrid<dim> &patch_grid = space.grid();
+    const int n                            = patch_grid.n_cells_per_side();
+    std::array<std::ptrdiff_t, dim> stride;
+    std::ptrdiff_t origin = 0;
+    for (unsigned int e = 0; e < dim; ++e)
+      {
+        stride[e] = (e == 0 ? 1 : stride[e - 1] * halo.extents(c)[e - 1]);
+        origin += halo.width() * stride[e];
+      }
+    // the direction along the plane that is not d
+    const unsigned int other = (dim == 3 ? 3 - c - d : d);
+    const int n_other        = (dim == 3 ? n : 1);
+    for (unsigned int upper = 0; upper < 2; ++upper)
+      {
+        const Neighbor neighbor = patch_grid.neighbor(p, 2 * c + upper);
+        if (neighbor != Neighbor::finer && neighbor != Neighbor::same)
+          continue;
+        const std::ptrdiff_t plane = origin + (upper == 1 ? n * stride[c] : 0),
+                             inner = (upper == 1 ? -stride[c] : stride[c]);
+        for (int i = 0; i <= n; ++i)
+          {
+            if (neighbor == Neighbor::same)
+              {
+                if (i > 0 && i < n)
+                  continue;
+                // a finer leaf that touches this edge of the plane
+                std::array<int, dim> beyond;
+                for (unsigned int e = 0; e < dim; ++e)
+                  beyond[e] = 2 * patch_grid.patch(p).index[e];
+                beyond[c] += (upper == 1 ? 2 : -1);
+                beyond[d] += (i == 0 ? -1 : 2);
+                if (patch_grid.neighbor(p, 2 * d + (i == 0 ? 0 : 1)) != Neighbor::same ||
+                    patch_grid.find(patch_grid.patch(p).level + 1, beyond) ==
+                      numbers::invalid_unsigned_int)
+                  continue;
+              }
+            for (int k = 0; k < n_other; ++k)
+              {
+                const std::ptrdiff_t at =
+                  plane + i * stride[d] + (dim == 3 ? k * stride[other] : 0);
+                flux[at] = 0.75 * flux[at] + 0.25 * flux[at + inner];
+              }
+          }
+      }
+  }
+
+
+  /**
    * Prepares the fluxes of component @p c (padded values @p u) in direction @p d through
    * the ends of patch @p p for a balance of the parts of control volumes that lie in the
    * patch.
@@ -359,6 +420,8 @@ namespace mitre::fluid
                                     const std::vector<double> &u,
                                     std::vector<double> &flux)
   {
+    if (c != d)
+      shift_fluxes(p, c, d, flux);
     std::array<std::ptrdiff_t, 3> stride{{1, 1, 1}};
     std::array<int, 3> end{{1, 1, 1}};
     std::ptrdiff_t first = 0;

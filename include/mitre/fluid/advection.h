@@ -72,6 +72,10 @@ namespace mitre::fluid
                       const grid::VectorType &imported,
                       const bool inhomogeneous);
     void build_matches();
+    void shift_fluxes(const unsigned int p,
+                      const unsigned int c,
+                      const unsigned int d,
+                      std::vector<double> &flux) const;
     void match_fluxes(const unsigned int p,
                       const unsigned int c,
                       const unsigned int d,
