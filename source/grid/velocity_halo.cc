@@ -192,6 +192,9 @@ namespace mitre::grid
                       }
               }
           }
+        if (extension == BoundaryExtension::quadratic)
+          add_interface_rows(p, combos);
+
         block_starts.push_back(blocks.size());
         for (unsigned int c = 0; c < dim; ++c)
           {
@@ -204,6 +207,46 @@ namespace mitre::grid
             for (auto &[to, row] : combos[c])
               rows.append(to, std::move(row));
             row_starts.push_back(rows.n_rows());
+          }
+      }
+  }
+
+
+  template <int dim>
+  void VelocityHalo<dim>::add_interface_rows(
+    const unsigned int p,
+    std::vector<std::vector<std::pair<unsigned int, LinearCombination<dim>>>> &result)
+    const
+  {
+    const PatchGrid<dim> &grid = space.grid();
+    const Patch<dim> &patch    = grid.patch(p);
+    for (unsigned int side = 0; side < 2 * dim; ++side)
+      {
+        if (grid.neighbor(p, side) != Neighbor::coarser)
+          continue;
+        const unsigned int c = side / 2;
+        const auto ext       = extents(c);
+        for (unsigned int i = 0; i < Utilities::fixed_power<dim - 1>(n); ++i)
+          {
+            unsigned int to = 0, to_stride = 1, rest = i;
+            Index index;
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                unsigned int own = (side % 2 == 0 ? 0 : n);
+                if (d != c)
+                  {
+                    own = rest % n;
+                    rest /= n;
+                  }
+                to += (own + g) * to_stride;
+                to_stride *= ext[d];
+                index[d] = patch.index[d] * static_cast<int>(n) + static_cast<int>(own);
+              }
+            LinearCombination<dim> row;
+            const bool found =
+              space.interface_value(patch.level, c, index, extension, row);
+            AssertThrow(found, ExcInternalError());
+            result[c].emplace_back(to, std::move(row));
           }
       }
   }

@@ -226,6 +226,22 @@ namespace mitre::grid
                      const bool interpolate,
                      LinearCombination<dim> &result) const;
 
+    /**
+     * The velocity at a face of a leaf of @p level on a coarse-fine interface,
+     * interpolated quadratically along the interface from the coarse faces there, of
+     * which the faces of the finer leaves only have the mean and the slopes. Returns
+     * whether that was possible.
+     */
+    bool interface_value(const int level,
+                         const unsigned int c,
+                         const Index &index,
+                         const BoundaryExtension extension,
+                         LinearCombination<dim> &result) const
+    {
+      Index coarse;
+      return interpolate_from_coarser(level, c, index, extension, 0, coarse, result);
+    }
+
     /// Gives @p vector the owned entries and the ghosts that the solver needs.
     void initialize_vector(VectorType &vector) const;
 

@@ -20,7 +20,8 @@ namespace mitre::grid
    * Copies of the velocity on a patch that are padded on every side by a number of
    * layers from what lies beyond: patches of the same level, averages of finer ones,
    * quadratic interpolation from coarser ones, or the extension by the boundary
-   * condition.
+   * condition. With BoundaryExtension::quadratic, for second differences, the faces on
+   * the interface to a coarser patch are replaced, too, by quadratic interpolation.
    *
    * gather() is linear in the vector (plus prescribed boundary values, if wanted), and
    * scatter_add() is its exact transpose; rows of the gather sum to one away from
@@ -110,6 +111,12 @@ namespace mitre::grid
 
   private:
     void build();
+
+    /// Rows for the faces of patch @p p on coarse-fine interfaces.
+    void add_interface_rows(
+      const unsigned int p,
+      std::vector<std::vector<std::pair<unsigned int, LinearCombination<dim>>>> &result)
+      const;
 
     const StaggeredSpace<dim> &space;
     const unsigned int n, g;
