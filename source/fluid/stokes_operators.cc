@@ -18,12 +18,15 @@ namespace mitre::fluid
     , patch_grid(space.grid())
     , n(patch_grid.n_cells_per_side())
     , velocity_halo(space, 1, grid::HaloShape::star, grid::BoundaryExtension::quadratic)
+    , viscous_fluxes(space)
     , cell_halo(patch_grid, n)
   {
     std::vector<types::global_dof_index> ghosts;
     velocity_halo.add_ghosts(ghosts);
+    viscous_fluxes.add_ghosts(ghosts);
     space.finalize(std::move(ghosts));
     velocity_halo.localize(space.partitioner());
+    viscous_fluxes.localize(*space.partitioner());
     if (!patch_grid.has_coarse_fine_interfaces())
       return;
 
@@ -279,6 +282,7 @@ namespace mitre::fluid
     std::vector<double> padded(velocity_halo.size(0));
     for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
       helmholtz_on_patch(dst, u, p, a, b, inhomogeneous, padded);
+    viscous_fluxes.add_correction(dst, u, b, inhomogeneous);
     u.zero_out_ghost_values();
     finish(dst);
   }
@@ -329,6 +333,7 @@ namespace mitre::fluid
         gradient_on_patch(momentum, pressure, p, true, 1., padded);
         divergence_on_patch(mass, u, p, factor);
       }
+    viscous_fluxes.add_correction(momentum, u, b, false);
     u.zero_out_ghost_values();
     pressure.zero_out_ghost_values();
     add_interface_gradient(momentum, pressure, 1.);

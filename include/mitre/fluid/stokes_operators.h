@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include <mitre/fluid/viscous_fluxes.h>
 #include <mitre/grid/cell_halo.h>
 #include <mitre/grid/staggered_space.h>
 #include <mitre/grid/velocity_halo.h>
@@ -87,6 +88,7 @@ namespace mitre::fluid
       const std::function<double(const grid::BoundaryTerm<dim> &)> &prescribed)
     {
       velocity_halo.set_boundary_values(prescribed);
+      viscous_fluxes.set_boundary_values(prescribed);
     }
 
     const grid::StaggeredSpace<dim> &velocity_space() const
@@ -136,6 +138,7 @@ namespace mitre::fluid
     const grid::PatchGrid<dim> &patch_grid;
     const unsigned int n;
     grid::VelocityHalo<dim> velocity_halo;
+    ViscousFluxes<dim> viscous_fluxes;
     grid::CellHalo<dim> cell_halo;
     mutable grid::VectorType interface_forces;
 

@@ -1,0 +1,279 @@
+#include <mitre/fluid/viscous_fluxes.h>
+
+namespace mitre::fluid
+{
+  using namespace dealii;
+  using grid::BoundaryExtension;
+  using grid::Neighbor;
+  using grid::VectorType;
+
+  template <int dim>
+  ViscousFluxes<dim>::ViscousFluxes(const grid::StaggeredSpace<dim> &space)
+    : space(space)
+    , patch_grid(space.grid())
+  {
+    if (!patch_grid.has_coarse_fine_interfaces())
+      return;
+    const int n = patch_grid.n_cells_per_side();
+    for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
+      {
+        const auto &patch = patch_grid.patch(p);
+        double volume     = 1.;
+        for (unsigned int d = 0; d < dim; ++d)
+          volume *= patch.h[d];
+        for (unsigned int c = 0; c < dim; ++c)
+          for (unsigned int entry = 0; entry < space.n_dofs_per_component(); ++entry)
+            {
+              Index i;
+              unsigned int rest = entry;
+              bool outermost    = false;
+              for (unsigned int d = 0; d < dim; ++d)
+                {
+                  const int extent = space.extent(c, d);
+                  const int own    = rest % extent;
+                  rest /= extent;
+                  outermost = outermost || own == 0 || own == extent - 1;
+                  i[d]      = patch.index[d] * n + own;
+                }
+              if (!outermost)
+                continue;
+              // copies follow their masters
+              const int plane           = i[c] - patch.index[c] * n;
+              const Neighbor below_kind = patch_grid.neighbor(p, 2 * c),
+                             above_kind = patch_grid.neighbor(p, 2 * c + 1);
+              if ((plane == 0 && below_kind == Neighbor::coarser) ||
+                  (plane == n &&
+                   (above_kind == Neighbor::coarser || above_kind == Neighbor::same)))
+                continue;
+              if (!touches_finer(patch.level, c, i))
+                continue;
+
+              Row row;
+              double control_volume = 0.;
+              for (unsigned int half = 0; half < 2; ++half)
+                {
+                  Index cell = i;
+                  cell[c] -= (half == 0 ? 1 : 0);
+                  const Leaf leaf = leaf_at(patch.level, cell);
+                  if (leaf == Leaf::none)
+                    continue;
+                  control_volume += (leaf == Leaf::finer ? 0.25 : 0.5) * volume;
+                }
+              for (unsigned int half = 0; half < 2; ++half)
+                {
+                  Index cell = i;
+                  cell[c] -= (half == 0 ? 1 : 0);
+                  const Leaf leaf = leaf_at(patch.level, cell);
+                  if (leaf == Leaf::same)
+                    add_half_balance(patch.level, c, i, half, 1. / control_volume, row);
+                  else if (leaf == Leaf::finer)
+                    for (unsigned int k = 0; k < (1u << (dim - 1)); ++k)
+                      {
+                        Index fine;
+                        unsigned int bit = 0;
+                        for (unsigned int d = 0; d < dim; ++d)
+                          fine[d] =
+                            2 * i[d] + (d == c ? 0 : static_cast<int>((k >> bit++) & 1));
+                        add_half_balance(
+                          patch.level + 1, c, fine, half, 1. / control_volume, row);
+                      }
+                }
+
+              // less the second differences
+              double center = 0.;
+              for (unsigned int d = 0; d < dim; ++d)
+                {
+                  const double w = 1. / (patch.h[d] * patch.h[d]);
+                  center += 2. * w;
+                  for (const int sign : {-1, 1})
+                    {
+                      Index beyond = i;
+                      beyond[d] += sign;
+                      Row value;
+                      const bool found = space.combination(patch.level,
+                                                           c,
+                                                           beyond,
+                                                           BoundaryExtension::quadratic,
+                                                           true,
+                                                           value);
+                      AssertThrow(found, ExcInternalError());
+                      row.add(value, -w);
+                    }
+                }
+              add_value(patch.level, c, i, center, row);
+              row.merge();
+              rows.append(space.first_dof(p, c) + entry, std::move(row));
+            }
+      }
+  }
+
+
+  template <int dim>
+  typename ViscousFluxes<dim>::Leaf ViscousFluxes<dim>::leaf_at(const int level,
+                                                                const Index &cell) const
+  {
+    const int n = patch_grid.n_cells_per_side();
+    Index where, finer;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const int size = patch_grid.n_patches(level, d) * n;
+        int position   = cell[d];
+        if (position < 0 || position >= size)
+          {
+            if (!patch_grid.periodic()[d])
+              return Leaf::none;
+            position = (position + size) % size;
+          }
+        where[d] = position / n;
+        finer[d] = 2 * position / n;
+      }
+    if (patch_grid.find(level, where) != numbers::invalid_unsigned_int)
+      return Leaf::same;
+    return patch_grid.find(level + 1, finer) != numbers::invalid_unsigned_int
+             ? Leaf::finer
+             : Leaf::coarser;
+  }
+
+
+  template <int dim>
+  void ViscousFluxes<dim>::add_value(const int level,
+                                     const unsigned int c,
+                                     const Index &i,
+                                     const double factor,
+                                     Row &row) const
+  {
+    Index below = i;
+    below[c] -= 1;
+    const Leaf a = leaf_at(level, below), b = leaf_at(level, i);
+    const bool on_interface =
+      (a == Leaf::same && b == Leaf::coarser) || (a == Leaf::coarser && b == Leaf::same);
+    Row value;
+    const bool found =
+      on_interface
+        ? space.interface_value(level, c, i, BoundaryExtension::quadratic, value)
+        : space.combination(level, c, i, BoundaryExtension::quadratic, true, value);
+    AssertThrow(found, ExcInternalError());
+    row.add(value, factor);
+  }
+
+
+  template <int dim>
+  void ViscousFluxes<dim>::add_side_flux(const int level,
+                                         const unsigned int c,
+                                         const Index &i,
+                                         const unsigned int half,
+                                         const unsigned int d,
+                                         const int sign,
+                                         const double factor,
+                                         Row &row) const
+  {
+    Index beyond = i;
+    beyond[c] -= (half == 0 ? 1 : 0);
+    beyond[d] += sign;
+    if (leaf_at(level, beyond) != Leaf::finer)
+      {
+        double weight = 0.5 * factor / patch_grid.cell_width(level, d);
+        for (unsigned int e = 0; e < dim; ++e)
+          if (e != d)
+            weight *= patch_grid.cell_width(level, e);
+        Index other = i;
+        other[d] += sign;
+        add_value(level, c, other, weight, row);
+        add_value(level, c, i, -weight, row);
+        return;
+      }
+    // the finer faces of which halves lie beside this half
+    for (unsigned int k = 0; k < (1u << (dim - 1)); ++k)
+      {
+        Index fine;
+        unsigned int bit = 0, fine_half = 0;
+        for (unsigned int e = 0; e < dim; ++e)
+          if (e == d)
+            fine[e] = (sign > 0 ? 2 * (i[e] + 1) : 2 * i[e] - 1);
+          else
+            {
+              const int second = (k >> bit++) & 1;
+              if (e == c)
+                {
+                  fine[e]   = 2 * i[e] + (half == 0 ? -second : second);
+                  fine_half = (second == 1 ? 1 - half : half);
+                }
+              else
+                fine[e] = 2 * i[e] + second;
+            }
+        add_side_flux(level + 1, c, fine, fine_half, d, -sign, -factor, row);
+      }
+  }
+
+
+  template <int dim>
+  void ViscousFluxes<dim>::add_half_balance(const int level,
+                                            const unsigned int c,
+                                            const Index &i,
+                                            const unsigned int half,
+                                            const double factor,
+                                            Row &row) const
+  {
+    double weight = factor / patch_grid.cell_width(level, c);
+    for (unsigned int e = 0; e < dim; ++e)
+      if (e != c)
+        weight *= patch_grid.cell_width(level, e);
+    Index other = i;
+    other[c] += (half == 0 ? -1 : 1);
+    add_value(level, c, other, weight, row);
+    add_value(level, c, i, -weight, row);
+    for (unsigned int d = 0; d < dim; ++d)
+      if (d != c)
+        for (const int sign : {-1, 1})
+          add_side_flux(level, c, i, half, d, sign, factor, row);
+  }
+
+
+  template <int dim>
+  bool ViscousFluxes<dim>::touches_finer(const int level,
+                                         const unsigned int c,
+                                         const Index &i) const
+  {
+    for (unsigned int half = 0; half < 2; ++half)
+      {
+        Index cell = i;
+        cell[c] -= (half == 0 ? 1 : 0);
+        const Leaf leaf = leaf_at(level, cell);
+        if (leaf == Leaf::finer)
+          return true;
+        if (leaf != Leaf::same)
+          continue;
+        for (unsigned int d = 0; d < dim; ++d)
+          if (d != c)
+            for (const int step : {-1, 1})
+              {
+                Index beyond = cell;
+                beyond[d] += step;
+                if (leaf_at(level, beyond) == Leaf::finer)
+                  return true;
+              }
+      }
+    return false;
+  }
+
+
+  template <int dim>
+  void ViscousFluxes<dim>::add_correction(VectorType &dst,
+                                          const VectorType &u,
+                                          const double b,
+                                          const bool inhomogeneous) const
+  {
+    const double *values = u.begin();
+    for (unsigned int row = 0; row < rows.n_rows(); ++row)
+      {
+        double sum = rows.apply(row, values);
+        if (inhomogeneous)
+          sum += rows.boundary_value(row);
+        dst.local_element(rows.destination(row)) += b * sum;
+      }
+  }
+
+
+  template class ViscousFluxes<2>;
+  template class ViscousFluxes<3>;
+} // namespace mitre::fluid
