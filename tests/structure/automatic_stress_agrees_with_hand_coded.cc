@@ -51,7 +51,7 @@ check(const bool stretched)
                                    bulk_modulus * std::log(J) * transpose(invert(F));
 
   const dealii::Tensor<2, dim> automatic =
-    make_law<dim>("Guccione", "set Bulk modulus = 2e5")
+    make_law<dim>("Guccione", "set Bulk modulus = 2e5\nset Fibres in compression = slack")
       ->first_piola_kirchhoff_stress(F, fibres, 0.);
   std::cout << dim << "D, " << (stretched ? "stretched" : "shortened") << ": "
             << below((automatic - P).norm() / P.norm(), 1e-13) << std::endl;

@@ -162,6 +162,7 @@ check_all()
     {"Isochoric split", "set Isochoric split = true"},
     {"Isochoric split", "set Isochoric split = true\nset Bulk modulus = 3e5"},
     {"Fibres in compression", "set Fibres in compression = elastic"},
+    {"Fibres in compression", "set Fibres in compression = slack"},
     // so that the first deformation reaches the linear part
     {"Transition stretch", "set Transition stretch = 1.05"}};
 

@@ -20,7 +20,7 @@ namespace mitre::structure
                       dealii::Patterns::Double(0),
                       "Factor in Q of twice the squares of the shear strains of fibres "
                       "against what is across.");
-    FibreCompression::declare_parameters(prm);
+    FibreCompression::declare_parameters(prm, true);
     VolumetricPart::declare_parameters(prm, false);
   }
 

@@ -45,10 +45,11 @@ namespace mitre::structure
   }
 
 
-  void FibreCompression::declare_parameters(dealii::ParameterHandler &prm)
+  void FibreCompression::declare_parameters(dealii::ParameterHandler &prm,
+                                            const bool elastic_by_default)
   {
     prm.declare_entry("Fibres in compression",
-                      "slack",
+                      elastic_by_default ? "elastic" : "slack",
                       dealii::Patterns::Selection("slack|elastic"),
                       "Whether shortened fibres carry nothing or go on by the same law.");
   }

@@ -20,8 +20,8 @@ namespace mitre::structure
    * differentiated automatically. By default C = 0.876 kPa, b_f = 18.48, b_t = 3.58,
    * b_fs = 1.627, their values for the canine left ventricle.
    *
-   * Slack fibres (see FibreCompression) leave out b_f's term; as the law is one of the
-   * whole tissue, they are elastic in the paper.
+   * As the law is one of the whole tissue, fibres are elastic in compression by default,
+   * as in the paper; slack ones (see FibreCompression) leave out b_f's term.
    */
   template <int dim>
   class Guccione : public EnergyOnlyLaw<dim, Guccione<dim>>

@@ -154,7 +154,8 @@ namespace mitre::structure
   {
     bool elastic = false;
 
-    static void declare_parameters(dealii::ParameterHandler &prm);
+    static void declare_parameters(dealii::ParameterHandler &prm,
+                                   const bool elastic_by_default = false);
 
     void parse_parameters(dealii::ParameterHandler &prm);
 
