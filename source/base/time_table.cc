@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
+#include <sstream>
 
+#include <mitre/base/csv_table.h>
 #include <mitre/base/exceptions.h>
 #include <mitre/base/nearest_name.h>
-#include <mitre/base/parameters.h>
 #include <mitre/base/time_table.h>
 #include <mitre/base/units.h>
 
@@ -14,37 +14,11 @@ namespace mitre::base
 {
   namespace
   {
-    std::vector<std::string> split_fields(const std::string &line)
+    std::string to_text(const double number)
     {
-      std::vector<std::string> fields(1);
-      for (const char c : line)
-        if (c == ',')
-          fields.emplace_back();
-        else
-          fields.back() += c;
-      for (std::string &field : fields)
-        {
-          const auto begin = field.find_first_not_of(" \t\r");
-          const auto end   = field.find_last_not_of(" \t\r");
-          field = begin == std::string::npos ? "" : field.substr(begin, end - begin + 1);
-        }
-      return fields;
-    }
-
-
-    // Takes "name [unit]" apart.
-    std::pair<std::string, std::string> split_heading(const std::string &heading,
-                                                      const std::string &place)
-    {
-      const auto open = heading.rfind('[');
-      AssertThrow(open != std::string::npos && open > 0 && heading.back() == ']',
-                  UserError(place + "the column heading '" + heading +
-                            "' is not a name and a unit, such as 'time [s]'."));
-      const auto end = heading.find_last_not_of(" \t", open - 1);
-      AssertThrow(end != std::string::npos,
-                  UserError(place + "the column heading '" + heading + "' has no name."));
-      return {heading.substr(0, end + 1),
-              heading.substr(open + 1, heading.size() - open - 2)};
+      std::ostringstream text;
+      text << number;
+      return text.str();
     }
 
 
@@ -67,71 +41,22 @@ namespace mitre::base
     : file_name_(file_name)
     , extension_(extension)
   {
-    std::ifstream file(file_name);
-    AssertThrow(file, UserError("Cannot open the table '" + file_name + "'."));
-
-    std::vector<double> factors;
-    std::string line;
-    unsigned int line_number = 0;
-    while (std::getline(file, line))
+    const CsvTable table(file_name, 2, "time [s],pressure [mmHg]");
+    if (table.n_columns() > 0)
       {
-        ++line_number;
-        const std::string place = file_name + ":" + std::to_string(line_number) + ": ";
-        const auto begin        = line.find_first_not_of(" \t\r");
-        if (begin == std::string::npos || line[begin] == '#')
-          continue;
-
-        const std::vector<std::string> fields = split_fields(line);
-        if (factors.empty())
-          {
-            AssertThrow(fields.size() > 1,
-                        UserError(place +
-                                  "expected the headings of at least two columns, "
-                                  "such as 'time [s],pressure [mmHg]'; found '" +
-                                  line + "'."));
-            for (unsigned int i = 0; i < fields.size(); ++i)
-              {
-                const auto [name, unit] = split_heading(fields[i], place);
-                try
-                  {
-                    factors.push_back(unit_in_cgs(unit));
-                  }
-                catch (const UserError &error)
-                  {
-                    throw UserError(place + error.what());
-                  }
-                AssertThrow(i > 0 || unit == "s" || unit == "ms",
-                            UserError(place +
-                                      "the first column must be time, in [s] or "
-                                      "[ms]; found '" +
-                                      fields[i] + "'."));
-                if (i > 0)
-                  names_.push_back(name);
-              }
-            values_.resize(names_.size());
-            continue;
-          }
-
-        AssertThrow(fields.size() == factors.size(),
-                    UserError(place + "found " + std::to_string(fields.size()) +
-                              " columns, but the first line names " +
-                              std::to_string(factors.size()) + "."));
-        for (unsigned int i = 0; i < fields.size(); ++i)
-          {
-            const double value =
-              parse_number(fields[i], place + "column " + std::to_string(i + 1)) *
-              factors[i];
-            if (i > 0)
-              values_[i - 1].push_back(value);
-            else
-              {
-                AssertThrow(times_.empty() || value > times_.back(),
-                            UserError(place + "the time " + fields[i] +
-                                      " is not later than the one before it."));
-                times_.push_back(value);
-              }
-          }
+        AssertThrow(table.units[0] == "s" || table.units[0] == "ms",
+                    UserError(file_name + ":" + std::to_string(table.heading_line) +
+                              ": the first column must be time, in [s] or [ms]; found '" +
+                              table.names[0] + " [" + table.units[0] + "]'."));
+        times_ = table.values[0];
+        names_.assign(table.names.begin() + 1, table.names.end());
+        values_.assign(table.values.begin() + 1, table.values.end());
       }
+    for (unsigned int i = 1; i < times_.size(); ++i)
+      AssertThrow(times_[i] > times_[i - 1],
+                  UserError(table.place(i) + "the time " +
+                            to_text(times_[i] / unit_in_cgs(table.units[0])) +
+                            " is not later than the one before it."));
     AssertThrow(times_.size() >= 2,
                 UserError(file_name +
                           ": a table needs a line of headings and at least two "

@@ -43,21 +43,7 @@ namespace mitre::structure
                           "0",
                           dealii::Patterns::List(dealii::Patterns::Integer(0), 1),
                           "Physical ids of the elements of this material in the mesh.");
-        prm.declare_entry("Time factor",
-                          "1",
-                          dealii::Patterns::Anything(),
-                          "Expression of the time t [s] that multiplies the stress.");
-        const std::string law =
-          base::declare_choice(prm,
-                               "Law",
-                               constitutive_laws<dim>().names().front(),
-                               constitutive_laws<dim>().names(),
-                               "Constitutive law; its constants are in the subsection of "
-                               "that name.\n" +
-                                 constitutive_laws<dim>().help());
-        prm.enter_subsection(law);
-        constitutive_laws<dim>().declare_parameters(law, prm);
-        prm.leave_subsection();
+        Material<dim>::declare_parameters(prm);
         prm.leave_subsection();
       }
 
@@ -101,18 +87,7 @@ namespace mitre::structure
         for (const int id :
              base::parse_integers(prm.get("Material id"), what + ", Material id"))
           material.ids.push_back(id);
-        material.time_factor =
-          base::TimeExpression(prm.get("Time factor"), what + ", Time factor");
-
-        const std::string law = prm.get("Law");
-        AssertThrow(
-          constitutive_laws<dim>().contains(law),
-          base::UserError(what + ": there is no constitutive law '" + law + "'. " +
-                          base::suggest_name(law, constitutive_laws<dim>().names())));
-        material.law = constitutive_laws<dim>().create(law);
-        prm.enter_subsection(law);
-        material.law->parse_parameters(prm);
-        prm.leave_subsection();
+        material.parse_parameters(prm, what);
         prm.leave_subsection();
         materials.push_back(std::move(material));
       }

@@ -1,4 +1,11 @@
+#include <mitre/structure/constitutive_laws/guccione.h>
+#include <mitre/structure/constitutive_laws/holzapfel_gasser_ogden.h>
+#include <mitre/structure/constitutive_laws/holzapfel_ogden.h>
+#include <mitre/structure/constitutive_laws/may_newman_yin.h>
+#include <mitre/structure/constitutive_laws/mooney_rivlin.h>
 #include <mitre/structure/constitutive_laws/neo_hookean.h>
+#include <mitre/structure/constitutive_laws/st_venant_kirchhoff.h>
+#include <mitre/structure/constitutive_laws/toe_linear_collagen.h>
 #include <mitre/structure/constitutive_laws/transversely_isotropic.h>
 #include <mitre/structure/constraints/tether.h>
 #include <mitre/structure/library.h>
@@ -15,6 +22,27 @@ namespace mitre::structure
         "transversely isotropic",
         "W = C1 (I1 - 3) + a_f / (2 b_f) (exp(b_f (I_f - 1)^2) - 1), "
         "the second term only in stretched fibres");
+      laws.template add<MooneyRivlin<dim>>("Mooney-Rivlin",
+                                           "W = C1 (I1 - 3) + C2 (I2 - 3)");
+      laws.template add<StVenantKirchhoff<dim>>("St Venant-Kirchhoff",
+                                                "W = (lambda/2) (tr E)^2 + mu E:E");
+      laws.template add<HolzapfelGasserOgden<dim>>(
+        "Holzapfel-Gasser-Ogden",
+        "W = (mu/2) (I1 - 3) + k1 / (2 k2) (exp(k2 E^2) - 1) for each of two families of "
+        "dispersed fibres, E = kappa (I1 - 3) + (1 - 3 kappa) (I4 - 1)");
+      laws.template add<HolzapfelOgden<dim>>(
+        "Holzapfel-Ogden",
+        "orthotropic myocardium, exponentials of I1, of the stretch along fibres and "
+        "sheets, and of the shear between them");
+      laws.template add<MayNewmanYin<dim>>(
+        "May-Newman-Yin",
+        "mitral leaflets, W = c0 (exp(c1 (I1 - 3)^2 + c2 (sqrt(I4) - 1)^4) - 1)");
+      laws.template add<Guccione<dim>>(
+        "Guccione", "transversely isotropic myocardium, W = (C/2) (exp(Q) - 1)");
+      laws.template add<ToeLinearCollagen<dim>>(
+        "toe-linear collagen",
+        "chordae: W = C1 (I1 - 3) and fibres with an exponential toe, linear beyond a "
+        "transition stretch");
       return laws;
     }();
     return registry;

@@ -30,6 +30,7 @@ ALLOWED = {
     "instruments": ["base", "grid", "fluid", "structure", "coupling"],
     "io": ["base", "grid", "structure"],
     "geometry": ["base", "io"],
+    "biaxial": ["base", "structure"],
     "simulation": ["base", "grid", "fluid", "structure", "coupling", "instruments", "io"],
 }
 
@@ -37,6 +38,7 @@ ALLOWED = {
 PROGRAMS = {
     "main.cc": ["base", "simulation"],
     "prepare_geometry.cc": ["base", "io", "geometry"],
+    "biaxial.cc": ["base", "biaxial"],
 }
 
 TOP_LEVEL = ["CMakeLists.txt", "LICENSE", "README.md", "doc", "include", "meshes",

@@ -11,32 +11,16 @@
 #include <utility>
 #include <vector>
 
-#include <mitre/base/expression.h>
-#include <mitre/structure/constitutive_laws/constitutive_law.h>
 #include <mitre/structure/constraints/constraint.h>
 #include <mitre/structure/elastic_force.h>
 #include <mitre/structure/mass_matrix.h>
+#include <mitre/structure/material.h>
 #include <mitre/structure/mesh.h>
 #include <mitre/structure/node_numbering.h>
 #include <mitre/structure/reference_element.h>
 
 namespace mitre::structure
 {
-  /**
-   * What the elements with some material ids are made of.
-   */
-  template <int dim>
-  struct Material
-  {
-    std::string name;
-    std::vector<unsigned int> ids;
-    std::shared_ptr<ConstitutiveLaw<dim>> law;
-
-    /// Multiplies energy and stress.
-    base::TimeExpression time_factor;
-  };
-
-
   template <int dim>
   struct NamedConstraint
   {

@@ -2,39 +2,28 @@
 
 namespace mitre::structure
 {
-  void NeoHookeanMatrix::declare_parameters(dealii::ParameterHandler &prm)
+  void NeoHookeanMatrix::declare_parameters(dealii::ParameterHandler &prm,
+                                            const std::string &default_C1)
   {
     prm.declare_entry("C1",
-                      "1e5",
+                      default_C1,
                       dealii::Patterns::Double(0),
                       "C1 of C1 (I1 - 3) [dyn/cm^2]: half of the shear modulus.");
-    prm.declare_entry("Reference stress",
-                      "stress-free",
-                      dealii::Patterns::Selection("stress-free|raw"),
-                      "'stress-free' subtracts 2 C1 F^-T, so that the undeformed body "
-                      "carries no stress; 'raw' is the derivative of C1 (I1 - 3) alone.");
-    prm.declare_entry(
-      "Bulk modulus",
-      "0",
-      dealii::Patterns::Double(0),
-      "kappa of the volumetric energy (kappa/2) (ln J)^2 [dyn/cm^2], which "
-      "keeps elements from changing their volume where the discrete "
-      "velocity would.");
+    VolumetricPart::declare_parameters(prm, true);
   }
 
 
   void NeoHookeanMatrix::parse_parameters(dealii::ParameterHandler &prm)
   {
-    C1           = prm.get_double("C1");
-    bulk_modulus = prm.get_double("Bulk modulus");
-    stress_free  = prm.get("Reference stress") == "stress-free";
+    C1 = prm.get_double("C1");
+    volumetric.parse_parameters(prm, true);
   }
 
 
   template <int dim>
   void NeoHookean<dim>::declare_parameters(dealii::ParameterHandler &prm)
   {
-    NeoHookeanMatrix::declare_parameters(prm);
+    NeoHookeanMatrix::declare_parameters(prm, "1e5");
   }
 
 

@@ -5,15 +5,16 @@ namespace mitre::structure
   template <int dim>
   void TransverselyIsotropic<dim>::declare_parameters(dealii::ParameterHandler &prm)
   {
-    NeoHookeanMatrix::declare_parameters(prm);
+    NeoHookeanMatrix::declare_parameters(prm, "1.7370e5");
     prm.declare_entry("a_f",
-                      "3e5",
+                      "3.1275e5",
                       dealii::Patterns::Double(0),
                       "a_f of a_f / (2 b_f) (exp(b_f (I_f - 1)^2) - 1) [dyn/cm^2].");
     prm.declare_entry("b_f",
-                      "50",
+                      "55.9258",
                       dealii::Patterns::Double(1e-6),
                       "b_f of a_f / (2 b_f) (exp(b_f (I_f - 1)^2) - 1).");
+    FibreCompression::declare_parameters(prm);
   }
 
 
@@ -21,6 +22,7 @@ namespace mitre::structure
   void TransverselyIsotropic<dim>::parse_parameters(dealii::ParameterHandler &prm)
   {
     matrix.parse_parameters(prm);
+    compression.parse_parameters(prm);
     a_f = prm.get_double("a_f");
     b_f = prm.get_double("b_f");
   }

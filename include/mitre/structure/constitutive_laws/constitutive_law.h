@@ -63,31 +63,48 @@ namespace mitre::structure
 
 
   /**
-   * The deformation gradient of one point and what laws need of it.
+   * The deformation gradient of one point and what laws need of it. In 2D (plane strain)
+   * the stretch of the third direction is 1. @p Number is double or an automatically
+   * differentiable type, see EnergyOnlyLaw.
    */
-  template <int dim>
+  template <int dim, typename Number = double>
   struct Deformation
   {
-    const dealii::Tensor<2, dim> &F;
+    const dealii::Tensor<2, dim, Number> &F;
 
     /// @f$\det F@f$
-    const double J;
+    const Number J;
 
     const Fibres<dim> &fibres;
 
     /// Time [s].
     const double t;
 
-    /// @f$I_1 = \mathrm{tr}\,F^T F@f$ (in 2D without the 1 of the third direction).
-    double I1() const
+    /// @f$I_1 = \mathrm{tr}\,C@f$, with the 1 of the third direction in 2D.
+    Number I1() const
     {
-      return F.norm_square();
+      Number sum = dim == 2 ? 1. : 0.;
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = 0; j < dim; ++j)
+          sum += F[i][j] * F[i][j];
+      return sum;
+    }
+
+    /// @f$C = F^T F@f$, without its third row and column in 2D.
+    dealii::Tensor<2, dim, Number> C() const
+    {
+      dealii::Tensor<2, dim, Number> result;
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = 0; j < dim; ++j)
+          for (unsigned int k = 0; k < dim; ++k)
+            result[i][j] += F[k][i] * F[k][j];
+      return result;
     }
 
     /// @f$F^{-T} = \mathrm{cof}(F)/J@f$
-    dealii::Tensor<2, dim> inverse_transpose() const
+    dealii::Tensor<2, dim, Number> inverse_transpose() const
     {
-      dealii::Tensor<2, dim> cofactor;
+      dealii::Tensor<2, dim, Number> cofactor;
       if constexpr (dim == 2)
         {
           cofactor[0][0] = F[1][1];

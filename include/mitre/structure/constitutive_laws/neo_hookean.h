@@ -1,59 +1,51 @@
 #ifndef mitre_structure_constitutive_laws_neo_hookean_h
 #define mitre_structure_constitutive_laws_neo_hookean_h
 
-#include <cmath>
+#include <string>
 
-#include <mitre/structure/constitutive_laws/constitutive_law.h>
+#include <mitre/structure/constitutive_laws/volumetric_part.h>
 
 namespace mitre::structure
 {
   /**
-   * The isotropic part that several laws share,
-   * @f[ W = C_1 (I_1 - d) - [2 C_1 \ln J] + \frac{\kappa}{2} (\ln J)^2, \quad
-   *     P = 2 C_1 F - [2 C_1 F^{-T}] + \kappa \ln J\, F^{-T}, @f]
-   * where the terms in brackets make the reference configuration free of stress; without
-   * them the stress differs by a pressure, which an incompressible fluid takes up, except
-   * at the surface of the body.
+   * The isotropic matrix that several laws share, @f$\hat W = C_1 (I_1 - 3)@f$ with
+   * @f$p_0 = 2 C_1@f$, completed by VolumetricPart. Without the split,
+   * @f[ W = C_1 (I_1 - 3) - [2 C_1 \ln J] + U(J), \quad
+   *     P = 2 C_1 F - [2 C_1 F^{-T}] + J U'(J)\, F^{-T}. @f]
    */
   struct NeoHookeanMatrix
   {
     /// [dyn/cm^2]
     double C1 = 0;
 
-    /// @f$\kappa@f$ [dyn/cm^2]
-    double bulk_modulus = 0;
+    VolumetricPart volumetric;
 
-    bool stress_free = true;
-
-    static void declare_parameters(dealii::ParameterHandler &prm);
+    static void declare_parameters(dealii::ParameterHandler &prm,
+                                   const std::string &default_C1);
 
     void parse_parameters(dealii::ParameterHandler &prm);
 
     template <int dim>
     double energy_at(const Deformation<dim> &point) const
     {
-      double energy = C1 * (point.I1() - dim);
-      if (stress_free || bulk_modulus != 0)
-        {
-          const double log_J = std::log(point.J);
-          if (stress_free)
-            energy -= 2 * C1 * log_J;
-          energy += 0.5 * bulk_modulus * log_J * log_J;
-        }
-      return energy;
+      return C1 * (volumetric.scale(point.J) * point.I1() - 3) +
+             volumetric.energy(point.J, 2 * C1);
+    }
+
+    /// The stress of the matrix and of fibres in it, whose @f$F \hat S@f$ is @p fibres.
+    template <int dim>
+    dealii::Tensor<2, dim> stress_at(const Deformation<dim> &point,
+                                     const double scale,
+                                     const dealii::Tensor<2, dim> &fibres) const
+    {
+      return volumetric.stress(point, scale, (2 * C1) * point.F + fibres, 2 * C1, 2 * C1);
     }
 
     template <int dim>
     dealii::Tensor<2, dim> stress_at(const Deformation<dim> &point) const
     {
-      dealii::Tensor<2, dim> P = (2 * C1) * point.F;
-
-      double factor = stress_free ? -2 * C1 : 0;
-      if (bulk_modulus != 0)
-        factor += bulk_modulus * std::log(point.J);
-      if (factor != 0)
-        P += factor * point.inverse_transpose();
-      return P;
+      return volumetric.stress(
+        point, volumetric.scale(point.J), (2 * C1) * point.F, 2 * C1, 2 * C1);
     }
   };
 
@@ -72,7 +64,7 @@ namespace mitre::structure
 
     bool is_stress_free_in_reference() const override
     {
-      return matrix.stress_free;
+      return matrix.volumetric.is_stress_free_in_reference();
     }
 
     double energy_at(const Deformation<dim> &point) const
