@@ -38,7 +38,7 @@ def flip(path):
         file.write(bytes([byte ^ 1]))
 
 
-short = dict(end="0.12", dt="8e-3", period="5")
+short = dict(end="0.12", dt="8e-3", period="5", maximum="5")
 case.run(program, "through", **short)
 damages = {"fields cut short": ("fields.0.bin", truncate),
            "a wrong bit in the fields": ("fields.0.bin", flip),
@@ -99,14 +99,14 @@ fields_size = sizes["through/checkpoints/00000010/fields.0.bin"]
 for name, limit, words, changes in (
         ("checkpoint", fields_size - 4096, "00000020.tmp/fields.0.bin: File too large",
          dict(fields="0")),
-        ("frame", 8192, "output/fluid_00008.0.vtu: File too large", {})):
+        ("frame", 8192, "output/fluid_00007.0.vtu: File too large", {})):
     shutil.rmtree("full", ignore_errors=True)
     shutil.copytree("through", "full")
     before, lines = case.frames("full"), case.statistics("full")
     last = case.checkpoints("full")[-1]
     fields = case.fields(last)
     text = case.run(program, "full", status=1, largest_file=limit,
-                    **dict(short, end="0.24", **changes))
+                    **dict(short, end="0.2", **changes))
     check("full disk, %s: message" % name, words in text and "newest checkpoint is " + last in text,
           text[-600:] if words not in text else words)
     after = case.frames("full")
@@ -116,7 +116,7 @@ for name, limit, words, changes in (
     check("full disk, %s: no remains" % name, not [
         file for path, folders, files in os.walk("full") for file in folders + files
         if file.endswith(".tmp")])
-    text = case.run(program, "full", **dict(short, end="0.24", **changes))
+    text = case.run(program, "full", **dict(short, end="0.2", **changes))
     check("full disk, %s: goes on with room" % name, "resumed from " + last in text)
 
 # A step that fails.

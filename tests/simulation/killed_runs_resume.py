@@ -27,7 +27,7 @@ os.makedirs(folder)
 os.chdir(folder)
 case.write_mesh()
 
-parameters = dict(period="2", kept="2", end="0.4", dt="%g" % (4e-3 * 3 / n_kills), fields="0.04")
+parameters = dict(period="2", kept="2", end="0.24", dt="%g" % (4e-3 * 3 / n_kills), fields="0.04")
 begin = time.time()
 case.run(program, "through", ranks, **parameters)
 duration = time.time() - begin

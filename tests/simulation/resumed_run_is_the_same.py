@@ -37,7 +37,7 @@ def cells(checkpoint):
         return sum(int(line.split()[1]) for line in file if line.startswith("patches_of_rank"))
 
 
-steps_of = {"equal steps": {}, "variable steps": dict(courant="0.08", maximum="0.085", dt="8e-3")}
+steps_of = {"equal steps": {}, "variable steps": dict(courant="0.4", maximum="0.41", dt="8e-3")}
 for kind, parameters in steps_of.items():
     for ranks in (1, 2):
         name = "%s, %d rank(s)" % (kind, ranks)
