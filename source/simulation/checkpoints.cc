@@ -133,7 +133,7 @@ namespace mitre::simulation
     last_checkpoint_step = resumed->step();
     continues_output     = ask_root(
       communicator,
-      fs::equivalent(fs::absolute(fs::path(resumed->folder())).parent_path().string(),
+      fs::equivalent(fs::canonical(resumed->folder(), ignored).parent_path(),
                      checkpoints->folder(),
                      ignored));
   }
