@@ -30,6 +30,10 @@ namespace mitre::simulation
     }
 
 
+    /// Between the end of the run and the limit of its wall time [s].
+    constexpr double smallest_margin = 10.;
+
+
     double wall_clock()
     {
       return std::chrono::duration<double>(
@@ -111,10 +115,11 @@ namespace mitre::simulation
     wishes[1] = stop_signal;
     if (root && wall_period > 0. && now - last_checkpoint >= wall_period)
       wishes[2] = 1;
-    // Two steps and two checkpoints more must fit, and a fiftieth of the limit, for the
-    // first checkpoint's time is not known.
+    // Two steps and two checkpoints more must fit; the time of the first checkpoint is
+    // not known, and programs take a while to start and to end.
     const double margin =
-      2. * longest_step + std::max(2. * longest_write, 0.02 * wall_limit);
+      2. * longest_step +
+      std::max({2. * longest_write, 0.02 * wall_limit, smallest_margin});
     if (root && wall_limit > 0. && now - program_start + margin >= wall_limit)
       wishes[3] = 1;
     Utilities::MPI::max(ArrayView<const int>(wishes.data(), wishes.size()),

@@ -131,11 +131,11 @@ namespace mitre::simulation
     is_resumed           = true;
     last_checkpoint      = resumed->folder();
     last_checkpoint_step = resumed->step();
-    continues_output     = ask_root(
-      communicator,
-      fs::equivalent(fs::canonical(resumed->folder(), ignored).parent_path(),
-                     checkpoints->folder(),
-                     ignored));
+    continues_output =
+      ask_root(communicator,
+               fs::equivalent(fs::canonical(resumed->folder(), ignored).parent_path(),
+                              checkpoints->folder(),
+                              ignored));
   }
 
 

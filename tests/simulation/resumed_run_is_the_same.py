@@ -90,8 +90,11 @@ text = case.run(program, "prolonged", end="0.24")
 found = case.differences("through_equal_1", "prolonged")
 check("a later end time: the same", "resumed" in text and not found, found or "to the last bit")
 
-text = case.run(program, "limited", status=75, period="0", limit="0.03", dt="4e-5", end="1")
-check("wall time limit", "Wall time limit" in text and len(case.checkpoints("limited")) == 1)
+begin = time.time()
+text = case.run(program, "limited", status=75, period="0", limit="0.2", dt="4e-5", end="1")
+check("wall time limit: message",
+      "Wall time limit" in text and len(case.checkpoints("limited")) == 1)
+check("wall time limit: stops before", 1 < time.time() - begin < 12, "%.1f s" % (time.time() - begin))
 
 # One rank, two ranks, one rank.
 tight = dict(tolerance="1e-13", mass_tolerance="1e-14", statistics="1", fields="0")
