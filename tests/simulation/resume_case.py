@@ -167,6 +167,21 @@ def fields(checkpoint):
         return [line for line in file if re.match(r"file (fields\.|grid)|step|time|patches", line)]
 
 
+def state(checkpoint):
+    """The arrays of a checkpoint's state.bin, but for wall times, by name; bytes."""
+    with open(os.path.join(checkpoint, "state.bin"), "rb") as file:
+        data = file.read()
+    result, at = {}, 0
+    while at < len(data):
+        end = data.index(b"\n", at)
+        kind, size, name = data[at:end].decode().split(" ", 2)
+        size = int(size) * (8 if kind == "numbers" else 1)
+        if "wall time" not in name:
+            result[name] = data[end + 1:end + 1 + size]
+        at = end + 1 + size + 1
+    return result
+
+
 def velocities_and_pressures(folder):
     """The fields of the last checkpoint of a run that has ended on one rank."""
     checkpoint = checkpoints(folder)[-1]
@@ -205,4 +220,7 @@ def differences(a, b):
     last_a, last_b = checkpoints(a)[-1], checkpoints(b)[-1]
     if fields(last_a) != fields(last_b):
         result.append("fields")
+    state_a, state_b = state(last_a), state(last_b)
+    result += sorted(name for name in set(state_a) | set(state_b)
+                     if state_a.get(name) != state_b.get(name))
     return result

@@ -32,11 +32,6 @@ def check(name, good, found=""):
         failures.append(name)
 
 
-def cells(checkpoint):
-    with open(os.path.join(checkpoint, "manifest.txt")) as file:
-        return sum(int(line.split()[1]) for line in file if line.startswith("patches_of_rank"))
-
-
 steps_of = {"equal steps": {}, "variable steps": dict(courant="0.4", maximum="0.41", dt="8e-3")}
 for kind, parameters in steps_of.items():
     for ranks in (1, 2):
@@ -62,6 +57,12 @@ for kind, parameters in steps_of.items():
             os.remove(resumed + "/output/block_00011.vtu")
             text = case.run(program, resumed, ranks, **parameters)
             step = os.path.basename(every[number])
+            numbers = [line[2] for line in case.statistics(through)[1:]]
+            step_of_line = [3 * i for i in range(len(numbers))]
+            changes = [s for s, a, b in zip(step_of_line[1:], numbers, numbers[1:]) if a != b]
+            at = int(os.path.basename(every[number]))
+            check(name + ": the grid changes after step %d%s" % (at, " and before" if number else ""),
+                  max(changes) > at and (number == 0 or min(changes) < at), changes)
             check(name + ": resumed", "resumed from %s/checkpoints/%s" % (resumed, step) in text,
                   step)
             found = case.differences(through, resumed)
