@@ -2,6 +2,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <chrono>
+#include <csignal>
 #include <iostream>
 #include <string>
 #include <thread>
@@ -22,6 +23,13 @@ namespace
     "Runs the fluid-structure simulation that the parameter file RUN.prm describes; in\n"
     "parallel as: mpirun -np N mitre RUN.prm\n"
     "\n"
+    "  --resume[=WHAT]      WHAT is auto (or left out): go on from the newest "
+    "checkpoint\n"
+    "                       in the output folder, or start if there is none; never: "
+    "start;\n"
+    "                       or the folder of a checkpoint or a run. It has precedence "
+    "over\n"
+    "                       the parameter \"Resume\"\n"
     "  --validate           check the file and everything it names, say what was\n"
     "                       understood, and stop before the first time step\n"
     "  --print-parameters   print all parameters with their defaults and explanations; "
@@ -30,7 +38,16 @@ namespace
     "  --parameter-reference  print all parameters, with one part, condition and so on "
     "of\n"
     "                       each kind, as Markdown\n"
-    "  --help               print this\n";
+    "  --help               print this\n"
+    "\n"
+    "SIGUSR1 makes a run write a checkpoint; SIGTERM, SIGINT and SIGUSR2 make it write "
+    "one\n"
+    "and stop. Exit status: 0 if the run has reached its end, 75 if it has stopped "
+    "before\n"
+    "and left a checkpoint to go on from, 1 after an error.\n";
+
+  /// EX_TEMPFAIL of sysexits.h: "temporary failure; user is invited to retry".
+  constexpr int stopped_before_end = 75;
 
   enum class Mode
   {
@@ -51,9 +68,13 @@ namespace
   }
 
   template <int dim>
-  void execute(dealii::ParameterHandler &prm, const std::string &file, const Mode mode)
+  int execute(dealii::ParameterHandler &prm,
+              const std::string &file,
+              const Mode mode,
+              const std::string &resume)
   {
-    simulation::Simulation<dim> simulation(prm, file, MPI_COMM_WORLD);
+    simulation::Simulation<dim> simulation(
+      prm, file, MPI_COMM_WORLD, mode == Mode::validate ? "never" : resume);
     const bool root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
     if (root)
       simulation.print_summary(std::cout);
@@ -61,21 +82,25 @@ namespace
       {
         if (root)
           std::cout << file << " is valid." << std::endl;
+        return 0;
       }
-    else
-      simulation.run();
+    return simulation.run() ? 0 : stopped_before_end;
   }
 
   int run_program(const int argc, char **argv)
   {
     const bool root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
     Mode mode       = Mode::run;
-    std::string file;
+    std::string file, resume;
     for (int i = 1; i < argc; ++i)
       {
         const std::string argument = argv[i];
         if (argument == "--validate")
           mode = Mode::validate;
+        else if (argument == "--resume")
+          resume = "auto";
+        else if (argument.rfind("--resume=", 0) == 0 && argument.size() > 9)
+          resume = argument.substr(9);
         else if (argument == "--print-parameters")
           mode = Mode::print_parameters;
         else if (argument == "--parameter-reference")
@@ -120,11 +145,8 @@ namespace
 
     base::parse_parameter_file(
       prm, file, [](dealii::ParameterHandler &p) { declare(p); });
-    if (prm.get("Dimension") == "2")
-      execute<2>(prm, file, mode);
-    else
-      execute<3>(prm, file, mode);
-    return 0;
+    return prm.get("Dimension") == "2" ? execute<2>(prm, file, mode, resume)
+                                       : execute<3>(prm, file, mode, resume);
   }
 } // namespace
 
@@ -132,6 +154,8 @@ namespace
 int
 main(int argc, char **argv)
 {
+  // A file that must not grow is an error to report, as a full disk is.
+  std::signal(SIGXFSZ, SIG_IGN);
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const unsigned int rank  = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
   const unsigned int ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include <mitre/base/exceptions.h>
 #include <mitre/grid/patch_grid.h>
@@ -152,6 +154,9 @@ namespace mitre::grid
       [this](
         const typename parallel::distributed::Triangulation<dim>::cell_iterator &cell,
         const typename parallel::distributed::Triangulation<dim>::CellStatus) {
+        if (exact_weight)
+          return exact_weight(
+            leaf_of(cell->level(), index_of(cell->center(), cell->level())));
         return 1000u + (extra_weight ? extra_weight(bounding_box_of(cell)) : 0u);
       });
 
@@ -309,11 +314,12 @@ namespace mitre::grid
   void PatchGrid<dim>::update()
   {
     patches.clear();
-    const auto add = [&](const typename Triangulation<dim>::active_cell_iterator &cell) {
+    const auto add = [&](const typename Triangulation<dim>::active_cell_iterator &cell,
+                         const types::global_dof_index id) {
       Patch<dim> patch;
       patch.level     = cell->level();
       patch.index     = index_of(cell->center(), patch.level);
-      patch.global_id = cell->global_active_cell_index();
+      patch.global_id = id;
       for (unsigned int d = 0; d < dim; ++d)
         {
           patch.h[d]     = cell_width(patch.level, d);
@@ -325,15 +331,42 @@ namespace mitre::grid
       return a.global_id < b.global_id;
     };
 
+    // deal.II numbers the cells of a level in the order in which they were made, which is
+    // another one after a restart, so they are numbered anew.
+    using ActiveCell = typename Triangulation<dim>::active_cell_iterator;
+    std::vector<std::pair<CellId, ActiveCell>> owned;
+    types::global_dof_index first_id = numbers::invalid_dof_index;
     for (const auto &cell : tria.active_cell_iterators())
       if (cell->is_locally_owned())
-        add(cell);
+        {
+          owned.emplace_back(cell->id(), cell);
+          first_id =
+            std::min<types::global_dof_index>(first_id, cell->global_active_cell_index());
+        }
+    std::sort(owned.begin(), owned.end(), [](const auto &a, const auto &b) {
+      return a.second->level() != b.second->level()
+               ? a.second->level() < b.second->level()
+               : a.first < b.first;
+    });
+    std::vector<types::global_dof_index> ids(tria.n_active_cells());
+    for (unsigned int p = 0; p < owned.size(); ++p)
+      ids[owned[p].second->active_cell_index()] = first_id + p;
+    GridTools::exchange_cell_data_to_ghosts<types::global_dof_index, Triangulation<dim>>(
+      tria,
+      [&](const ActiveCell &cell) { return ids[cell->active_cell_index()]; },
+      [&](const ActiveCell &cell, const types::global_dof_index id) {
+        ids[cell->active_cell_index()] = id;
+      });
+
+    for (const auto &cell : tria.active_cell_iterators())
+      if (cell->is_locally_owned())
+        add(cell, ids[cell->active_cell_index()]);
     owned_patches  = patches.size();
     global_patches = tria.n_global_active_cells();
     std::sort(patches.begin(), patches.end(), by_id);
     for (const auto &cell : tria.active_cell_iterators())
       if (cell->is_ghost())
-        add(cell);
+        add(cell, ids[cell->active_cell_index()]);
     std::sort(patches.begin() + owned_patches, patches.end(), by_id);
 
     lowest_level  = 1000;
@@ -396,6 +429,101 @@ namespace mitre::grid
           mixed = mixed || neighbor == Neighbor::coarser || neighbor == Neighbor::finer;
         }
     mixed_levels = Utilities::MPI::max(mixed ? 1 : 0, tria.get_communicator()) == 1;
+  }
+
+
+  template <int dim>
+  Leaf PatchGrid<dim>::leaf_of(const int level, const Index &index)
+  {
+    Leaf leaf{level, {{0, 0, 0}}};
+    std::copy(index.begin(), index.end(), leaf.index.begin());
+    return leaf;
+  }
+
+
+  template <int dim>
+  std::vector<Leaf> PatchGrid<dim>::owned_leaves() const
+  {
+    std::vector<Leaf> leaves;
+    for (unsigned int p = 0; p < owned_patches; ++p)
+      leaves.push_back(leaf_of(patches[p].level, patches[p].index));
+    return leaves;
+  }
+
+
+  template <int dim>
+  bool PatchGrid<dim>::set_leaves(const std::vector<Leaf> &leaves,
+                                  const std::vector<unsigned int> &owners)
+  {
+    using Key         = std::array<int, 4>;
+    const auto key_of = [](const Leaf &leaf) {
+      return Key{{leaf.level, leaf.index[0], leaf.index[1], leaf.index[2]}};
+    };
+    const auto leaf_at = [&](const typename Triangulation<dim>::cell_iterator &cell) {
+      return leaf_of(cell->level(), index_of(cell->center(), cell->level()));
+    };
+
+    // Step 1: refine all that leaves descend from.
+    std::set<Key> refined;
+    for (Leaf leaf : leaves)
+      while (leaf.level > 0)
+        {
+          --leaf.level;
+          for (int &i : leaf.index)
+            i /= 2;
+          if (!refined.insert(key_of(leaf)).second)
+            break;
+        }
+    while (true)
+      {
+        bool flagged = false;
+        for (const auto &cell : tria.active_cell_iterators())
+          if (cell->is_locally_owned() && refined.count(key_of(leaf_at(cell))) > 0)
+            {
+              cell->set_refine_flag();
+              flagged = true;
+            }
+        if (!Utilities::MPI::logical_or(flagged, tria.get_communicator()))
+          break;
+        tria.execute_coarsening_and_refinement();
+      }
+    AssertThrow(
+      tria.n_global_active_cells() == leaves.size(),
+      ExcMessage("The leaves are not those of a balanced forest over the box."));
+
+    // Step 2: p4est gives each rank the same weight, and so all leaves of a rank
+    // together get the same.
+    bool all_there = true;
+    if (!owners.empty())
+      {
+        AssertDimension(owners.size(), leaves.size());
+        std::vector<unsigned int> n_leaves(
+          Utilities::MPI::n_mpi_processes(tria.get_communicator()), 0);
+        for (const unsigned int owner : owners)
+          ++n_leaves[owner];
+        const unsigned int total = *std::max_element(n_leaves.begin(), n_leaves.end());
+        std::map<Key, unsigned int> weights, owner_of;
+        std::vector<unsigned int> n_seen(n_leaves.size(), 0);
+        for (std::size_t i = 0; i < leaves.size(); ++i)
+          {
+            const unsigned int n = n_leaves[owners[i]];
+            weights[key_of(leaves[i])] =
+              total / n + (n_seen[owners[i]]++ < total % n ? 1 : 0);
+            owner_of[key_of(leaves[i])] = owners[i];
+          }
+        exact_weight = [&](const Leaf &leaf) { return weights[key_of(leaf)]; };
+        tria.repartition();
+        exact_weight = nullptr;
+        for (const auto &cell : tria.active_cell_iterators())
+          if (cell->is_locally_owned())
+            all_there = all_there &&
+                        owner_of[key_of(leaf_at(cell))] == tria.locally_owned_subdomain();
+        all_there = !Utilities::MPI::logical_or(!all_there, tria.get_communicator());
+      }
+    else
+      tria.repartition();
+    update();
+    return all_there;
   }
 
 

@@ -169,6 +169,29 @@ namespace mitre::instruments
   }
 
 
+  template <int dim>
+  std::vector<double> FlowMeter<dim>::state() const
+  {
+    return {has_previous ? 1. : 0.,
+            previous_time,
+            previous_flow,
+            forward_volume,
+            backward_volume};
+  }
+
+
+  template <int dim>
+  void FlowMeter<dim>::set_state(const std::vector<double> &state)
+  {
+    AssertDimension(state.size(), 5);
+    has_previous    = state[0] != 0.;
+    previous_time   = state[1];
+    previous_flow   = state[2];
+    forward_volume  = state[3];
+    backward_volume = state[4];
+  }
+
+
   template double compute_flow(const MeasuringDisc<2> &,
                                const grid::StaggeredSpace<2> &,
                                const grid::VectorType &,

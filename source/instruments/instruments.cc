@@ -64,6 +64,25 @@ namespace mitre::instruments
   }
 
 
+  template <int dim>
+  std::vector<std::vector<double>> Instruments<dim>::state() const
+  {
+    std::vector<std::vector<double>> result;
+    for (const auto &instrument : instruments)
+      result.push_back(instrument->state());
+    return result;
+  }
+
+
+  template <int dim>
+  void Instruments<dim>::set_state(const std::vector<std::vector<double>> &state)
+  {
+    AssertDimension(state.size(), instruments.size());
+    for (unsigned int i = 0; i < instruments.size(); ++i)
+      instruments[i]->set_state(state[i]);
+  }
+
+
   template class Instruments<2>;
   template class Instruments<3>;
 } // namespace mitre::instruments

@@ -443,10 +443,42 @@ namespace mitre::io
                                     const std::string &file_name)
   {
     frames[series].emplace_back(time, file_name);
+    write_collection(series);
+  }
+
+
+  template <int dim>
+  void OutputWriter<dim>::write_collection(const std::string &series) const
+  {
     if (rank == 0)
-      write_file(folder + series + ".pvd", [&](std::ostream &out) {
-        DataOutBase::write_pvd_record(out, frames[series]);
-      });
+      {
+        write_file(folder + series + ".pvd", [&](std::ostream &out) {
+          DataOutBase::write_pvd_record(out, frames.at(series));
+        });
+        unsynchronised.insert(folder + series + ".pvd");
+      }
+  }
+
+
+  template <int dim>
+  void OutputWriter<dim>::synchronise()
+  {
+    call_together(communicator, [&]() {
+      for (const std::string &file : unsynchronised)
+        io::synchronise(file);
+      unsynchronised.clear();
+    });
+  }
+
+
+  template <int dim>
+  void OutputWriter<dim>::continue_after(const Frames &written)
+  {
+    frames = written;
+    call_together(communicator, [&]() {
+      for (const auto &[series, list] : frames)
+        write_collection(series);
+    });
   }
 
 
@@ -469,6 +501,7 @@ namespace mitre::io
     output.set_flags(flags);
     call_together(communicator, [&]() {
       write_file(folder + piece(rank), [&](std::ostream &out) { output.write_vtu(out); });
+      unsynchronised.insert(folder + piece(rank));
     });
 
     call_together(communicator, [&]() {
@@ -479,6 +512,7 @@ namespace mitre::io
             pieces.push_back(piece(r));
           write_file(folder + frame + ".pvtu",
                      [&](std::ostream &out) { output.write_pvtu_record(out, pieces); });
+          unsynchronised.insert(folder + frame + ".pvtu");
         }
       add_frame("fluid", time, frame + ".pvtu");
     });
@@ -503,9 +537,12 @@ namespace mitre::io
     const std::vector<double> velocities = body.to_mesh_order(U);
     call_together(communicator, [&]() {
       if (rank == 0)
-        write_file(folder + file_name, [&](std::ostream &out) {
-          write_body(out, body, positions, velocities);
-        });
+        {
+          write_file(folder + file_name, [&](std::ostream &out) {
+            write_body(out, body, positions, velocities);
+          });
+          unsynchronised.insert(folder + file_name);
+        }
       add_frame(body.name(), time, file_name);
     });
   }

@@ -1,7 +1,9 @@
 #include <cerrno>
 #include <cstring>
+#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
+#include <unistd.h>
 
 #include <mitre/base/exceptions.h>
 #include <mitre/io/safe_file.h>
@@ -41,6 +43,19 @@ namespace mitre::io
         fs::remove(temporary, error);
         throw base::UserError(describe_write_error(file_name, error_number));
       }
+  }
+
+
+  void synchronise(const std::string &name)
+  {
+    const int descriptor = ::open(name.c_str(), O_RDONLY | O_CLOEXEC);
+    const bool good      = descriptor >= 0 && ::fsync(descriptor) == 0;
+    const int error      = errno;
+    if (descriptor >= 0)
+      ::close(descriptor);
+    // Some file systems cannot do so with folders.
+    if (!good && error != EINVAL)
+      throw base::UserError(describe_write_error(name, error));
   }
 
 

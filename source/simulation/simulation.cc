@@ -3,17 +3,20 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <exception>
 #include <filesystem>
-#include <fstream>
 #include <iomanip>
+#include <optional>
 #include <sstream>
 
 #include <mitre/base/exceptions.h>
+#include <mitre/base/parameter_values.h>
 #include <mitre/base/parameters.h>
 #include <mitre/base/progress.h>
 #include <mitre/coupling/kernels.h>
 #include <mitre/fluid/vorticity_map.h>
 #include <mitre/io/mesh_reader.h>
+#include <mitre/io/safe_file.h>
 #include <mitre/simulation/simulation.h>
 #include <mitre/structure/library.h>
 
@@ -41,6 +44,18 @@ namespace mitre::simulation
                       "runs/mitre",
                       Patterns::Anything(),
                       "Where the run's files go; made if it is not there.");
+    prm.declare_entry("Resume",
+                      "auto",
+                      Patterns::Anything(),
+                      "auto: go on from the newest complete checkpoint in the output "
+                      "folder, or start if there is none; never: start, and set "
+                      "checkpoints of an earlier run aside; else the folder of a "
+                      "checkpoint, or of a run, from which to go on. The option --resume "
+                      "of the program has precedence.");
+
+    prm.enter_subsection("Checkpoints");
+    CheckpointSchedule::declare_parameters(prm);
+    prm.leave_subsection();
 
     prm.enter_subsection("Time");
     prm.declare_entry("End time", "1", Patterns::Double(0.), "Time at the end [s].");
@@ -180,12 +195,24 @@ namespace mitre::simulation
   template <int dim>
   Simulation<dim>::Simulation(ParameterHandler &prm,
                               const std::string &parameter_file,
-                              const MPI_Comm communicator)
+                              const MPI_Comm communicator,
+                              const std::string &resume)
     : communicator(communicator)
     , root(Utilities::MPI::this_mpi_process(communicator) == 0)
     , parameter_file(parameter_file)
   {
+    schedule.start_clock();
     output_folder = prm.get("Output folder");
+    prm.enter_subsection("Checkpoints");
+    schedule.parse_parameters(prm);
+    prm.leave_subsection();
+    checkpoints = std::make_unique<io::CheckpointStore>(
+      output_folder, schedule.n_kept(), communicator);
+    io::call_together(communicator, [&]() {
+      if (root)
+        parameter_values = base::list_parameter_values(prm);
+    });
+    open_checkpoint(resume.empty() ? prm.get("Resume") : resume);
 
     prm.enter_subsection("Time");
     end_time               = prm.get_double("End time");
@@ -230,18 +257,35 @@ namespace mitre::simulation
     prm.enter_subsection("Structure");
     read_parts(prm);
     prm.leave_subsection();
+    if (resumed)
+      restore_positions();
 
-    patch_grid->adapt(wanted_levels());
+    if (resumed)
+      restore_grid();
+    else
+      patch_grid->adapt(wanted_levels());
     fluid = std::make_unique<fluid::NavierStokes<dim>>(
       *patch_grid, boundary_conditions, fluid_parameters);
     fe_coupling = std::make_unique<coupling::FECoupling<dim>>(*patch_grid);
     for (const Part &part : parts)
       fe_coupling->add_part(*part.body, part.coupling_parameters);
-    distribute_parts();
+    if (!resumed)
+      distribute_parts();
 
     prm.enter_subsection("Instruments");
     instruments.parse_parameters(prm);
     prm.leave_subsection();
+    if (resumed)
+      restore_state();
+  }
+
+
+  template <int dim>
+  Simulation<dim>::~Simulation()
+  {
+    // Not after an error, when other ranks may never come here.
+    if (rescue_communicator != MPI_COMM_NULL && std::uncaught_exceptions() == 0)
+      MPI_Comm_free(&rescue_communicator);
   }
 
 
@@ -323,13 +367,15 @@ namespace mitre::simulation
 
 
   template <int dim>
-  void Simulation<dim>::distribute_parts()
+  void Simulation<dim>::distribute_parts(
+    const std::vector<std::vector<unsigned int>> &node_owners)
   {
-    for (Part &part : parts)
+    for (unsigned int i = 0; i < parts.size(); ++i)
       {
+        Part &part = parts[i];
         part.body->distribute(
-          [this](const std::vector<Point<dim>> &points) {
-            return fe_coupling->owners_of(points);
+          [&](const std::vector<Point<dim>> &points) {
+            return node_owners.empty() ? fe_coupling->owners_of(points) : node_owners[i];
           },
           part.X,
           {&part.U});
@@ -488,6 +534,7 @@ namespace mitre::simulation
   template <int dim>
   void Simulation<dim>::advance()
   {
+    save_step();
     time_step = next_time_step();
     if (wanted_courant_number == 0.)
       {
@@ -498,14 +545,6 @@ namespace mitre::simulation
       }
     else
       {
-        typename fluid::NavierStokes<dim>::State state;
-        fluid->save(state);
-        std::vector<structure::VectorType> X, U;
-        for (const Part &part : parts)
-          {
-            X.push_back(part.X);
-            U.push_back(part.U);
-          }
         step(time_step);
         while (!(courant_number <= maximum_courant_number))
           {
@@ -513,12 +552,7 @@ namespace mitre::simulation
               check_courant_number();
             time_step *= 0.5;
             ++n_repeated;
-            fluid->restore(state);
-            for (unsigned int part = 0; part < parts.size(); ++part)
-              {
-                parts[part].X = X[part];
-                parts[part].U = U[part];
-              }
+            restore_step_fields();
             step(time_step);
           }
         ++step_number;
@@ -531,7 +565,10 @@ namespace mitre::simulation
         patch_grid->maximum_level() > patch_grid->minimum_level() &&
         (refinement.vorticity_change() > 0. ||
          largest_displacement_since_regrid() > 0.5 * refinement.buffer()))
-      regrid();
+      {
+        before_step.valid = false;
+        regrid();
+      }
   }
 
 
@@ -622,77 +659,132 @@ namespace mitre::simulation
     else
       out << "  " << std::lround((end_time - start_time) / largest_time_step)
           << " steps of " << largest_time_step << " s";
+    if (is_resumed)
+      out << ", resumed from " << last_checkpoint << " after step " << step_number
+          << " at t = " << current_time << " s,";
     out << " to t = " << end_time << " s; output in " << output_folder << std::endl;
   }
 
 
   template <int dim>
-  void Simulation<dim>::run()
+  bool Simulation<dim>::run()
   {
-    if (root)
+    try
       {
-        std::error_code error;
-        std::filesystem::create_directories(output_folder, error);
-        std::ofstream copy(std::filesystem::path(output_folder) / "parameters.prm");
-        copy << base::expand_includes(parameter_file);
-        copy.close();
-        AssertThrow(copy.good(),
-                    base::UserError(
-                      "Cannot write to the output folder " + output_folder + ": " +
-                      (error ? error.message() : "no permission, or the disk is full") +
-                      "."));
+        return run_to_end();
       }
-    MPI_Barrier(communicator);
-    output     = std::make_unique<io::OutputWriter<dim>>(output_folder, communicator);
+    catch (const base::UserError &error)
+      {
+        throw base::UserError(
+          error.what() + (last_checkpoint.empty()
+                            ? std::string("\nThe run has written no checkpoint.")
+                            : "\nThe newest checkpoint is " + last_checkpoint + "."));
+      }
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::prepare_output()
+  {
+    // Files of an earlier run: continued, or at least not mixed with those of this one.
+    if (continues_output)
+      {
+        const unsigned int n = checkpoints->set_later_ones_aside(step_number);
+        if (root && n > 0)
+          std::cout << n << " later checkpoint(s) in " << checkpoints->folder()
+                    << " are not used and now end with .unused." << std::endl;
+      }
+    else
+      {
+        const std::string aside = checkpoints->set_all_aside();
+        if (root && !aside.empty())
+          std::cout << "The checkpoints of an earlier run are now in " << aside << "."
+                    << std::endl;
+      }
+
+    io::call_together(communicator, [&]() {
+      if (root)
+        {
+          io::make_folder(output_folder);
+          io::write_file(
+            (std::filesystem::path(output_folder) / "parameters.prm").string(),
+            [&](std::ostream &out) { out << base::expand_includes(parameter_file); });
+        }
+    });
+    output = std::make_unique<io::OutputWriter<dim>>(output_folder, communicator);
+    if (continues_output)
+      output->continue_after(frames_to_continue);
     statistics = std::make_unique<io::StatisticsFile>(
-      output_folder + "/statistics.csv", statistics_columns(), communicator);
+      output_folder + "/statistics.csv",
+      statistics_columns(),
+      communicator,
+      continues_output ? std::optional<double>(current_time) : std::optional<double>());
+  }
 
-    const auto set_initial_velocity = [this]() {
-      fluid->set_velocity(
-        [this](const Point<dim> &x, const unsigned int c) {
-          return initial_velocity[c].value(x);
-        },
-        start_time);
-    };
-    current_time = start_time;
-    set_initial_velocity();
-    if (refinement.vorticity_change() > 0.)
-      for (unsigned int level = patch_grid->minimum_level();
-           level < patch_grid->maximum_level() && regrid();
-           ++level)
-        set_initial_velocity();
-    n_regrids = 0;
 
-    step_number                = 0;
-    last_measured              = start_time;
+  template <int dim>
+  bool Simulation<dim>::run_to_end()
+  {
+    schedule.begin();
+    MPI_Comm_dup(communicator, &rescue_communicator);
+    prepare_output();
+
     const unsigned int n_steps = std::lround((end_time - start_time) / largest_time_step);
     const auto finished        = [&]() {
       return wanted_courant_number > 0. ? current_time >= end_time
                                                : step_number >= n_steps;
     };
-    base::Progress progress(std::cout, start_time, end_time, "s");
 
-    unsigned int n_outputs = 0;
-    if (output_interval > 0.)
+    if (!is_resumed)
       {
-        write_fields();
-        ++n_outputs;
+        const auto set_initial_velocity = [this]() {
+          fluid->set_velocity(
+            [this](const Point<dim> &x, const unsigned int c) {
+              return initial_velocity[c].value(x);
+            },
+            start_time);
+        };
+        current_time = start_time;
+        set_initial_velocity();
+        if (refinement.vorticity_change() > 0.)
+          for (unsigned int level = patch_grid->minimum_level();
+               level < patch_grid->maximum_level() && regrid();
+               ++level)
+            set_initial_velocity();
+        n_regrids     = 0;
+        step_number   = 0;
+        last_measured = start_time;
+        n_outputs     = 0;
+        if (output_interval > 0.)
+          {
+            write_fields();
+            ++n_outputs;
+          }
+        measure(0, 0.);
+        statistics_clock = wall_clock();
+        iterations_since = 0;
+        steps_since      = 0;
       }
-    measure(0, 0.);
 
-    double clock                  = wall_clock();
-    unsigned int iterations_since = 0, steps_since = 0;
+    base::Progress progress(std::cout, current_time, end_time, "s");
     while (!finished())
       {
-        advance();
+        try
+          {
+            advance();
+          }
+        catch (const base::UserError &error)
+          {
+            throw base::UserError(error.what() + rescue());
+          }
         iterations_since = std::max(iterations_since, last_iterations);
         ++steps_since;
 
         if (step_number % statistics_interval == 0 || finished())
           {
             const double now = wall_clock();
-            measure(iterations_since, (now - clock) / steps_since);
-            clock            = now;
+            measure(iterations_since, (now - statistics_clock) / steps_since);
+            statistics_clock = now;
             iterations_since = 0;
             steps_since      = 0;
           }
@@ -703,7 +795,7 @@ namespace mitre::simulation
             const double begin = wall_clock();
             write_fields();
             ++n_outputs;
-            clock += wall_clock() - begin;
+            statistics_clock += wall_clock() - begin;
           }
         if (root)
           {
@@ -713,7 +805,36 @@ namespace mitre::simulation
                  << std::setprecision(2) << courant_number;
             progress.update(current_time, note.str());
           }
+
+        const CheckpointSchedule::Decision decision =
+          schedule.decide(step_number, communicator);
+        if (decision.write)
+          {
+            const double begin = wall_clock();
+            write_checkpoint();
+            const double seconds = wall_clock() - begin;
+            schedule.written(seconds);
+            statistics_clock += seconds;
+            if (root)
+              {
+                progress.interrupt();
+                std::cout << "Checkpoint " << last_checkpoint
+                          << " at t = " << current_time << " s: " << std::setprecision(3)
+                          << checkpoints->last_size() * 1e-6 << " MB in " << seconds
+                          << " s" << std::setprecision(6) << std::endl;
+              }
+          }
+        if (decision.stop && !finished())
+          {
+            statistics->flush();
+            if (root)
+              std::cout << "The run stops at t = " << current_time << " s, after step "
+                        << step_number << ", " << decision.reason
+                        << "; run it again to go on." << std::endl;
+            return false;
+          }
       }
+    statistics->flush();
     if (root)
       progress.finish();
     if (root && n_regrids > 0)
@@ -721,6 +842,7 @@ namespace mitre::simulation
     if (root && n_repeated > 0)
       std::cout << n_repeated << " steps were too long and repeated at half their length."
                 << std::endl;
+    return true;
   }
 
 

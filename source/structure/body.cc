@@ -319,6 +319,17 @@ namespace mitre::structure
 
 
   template <int dim>
+  std::vector<unsigned int> Body<dim>::node_owners() const
+  {
+    std::vector<unsigned int> owners(numbering_.n_nodes());
+    for (unsigned int r = 0; r + 1 < numbering_.first.size(); ++r)
+      for (unsigned int i = numbering_.first[r]; i < numbering_.first[r + 1]; ++i)
+        owners[numbering_.node_of[i]] = r;
+    return owners;
+  }
+
+
+  template <int dim>
   const double *Body<dim>::import_positions(const VectorType &X) const
   {
     AssertDimension(X.locally_owned_size(), elements_.n_owned_nodes() * dim);

@@ -78,6 +78,19 @@ namespace mitre::coupling
     /// errors as in PartPoints::update().
     void update_points(const std::vector<const VectorType *> &X);
 
+    /// The node positions of a part for which its elements have last been looked up, or
+    /// null: what find_elements() needs to put a resumed run into the same state.
+    const VectorType *lookup_positions(const unsigned int part) const
+    {
+      return parts[part].points->lookup_positions();
+    }
+
+    /// Look up the elements of a part for node positions @p X. Collective.
+    void find_elements(const unsigned int part, const VectorType &X)
+    {
+      parts[part].points->find_elements(X);
+    }
+
     /**
      * Nodal velocities [cm/s] from the grid velocity @p u (2.41): projections onto the
      * shape functions of each body. On entry @p U holds a first guess, such as the

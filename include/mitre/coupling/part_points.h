@@ -69,6 +69,16 @@ namespace mitre::coupling
      */
     void update(const VectorType &X);
 
+    /// Look up the elements for node positions @p X, as update() does. Collective.
+    void find_elements(const VectorType &X);
+
+    /// The node positions for which elements have last been looked up; null if they have
+    /// not been since reinit().
+    const VectorType *lookup_positions() const
+    {
+      return elements_are_known ? &positions_at_lookup : nullptr;
+    }
+
     /// Runs of patch p: run_starts()[p] <= i < run_starts()[p + 1].
     const std::vector<unsigned int> &run_starts() const
     {
@@ -113,8 +123,6 @@ namespace mitre::coupling
     }
 
   private:
-    void find_elements(const VectorType &X);
-
     void find_runs();
 
     void find_points_one_by_one(const unsigned int i,

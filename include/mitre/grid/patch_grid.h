@@ -37,6 +37,15 @@ namespace mitre::grid
   };
 
 
+  /// A leaf of a forest: its level, and its position in the grid of all patches of that
+  /// level; the third coordinate is 0 in two dimensions.
+  struct Leaf
+  {
+    int level;
+    std::array<int, 3> index;
+  };
+
+
   /// What lies beyond a side of a patch.
   enum class Neighbor : unsigned char
   {
@@ -218,6 +227,20 @@ namespace mitre::grid
                const std::function<void()> &before_change = {},
                const std::function<void()> &after_change  = {});
 
+    /// The leaves of this rank, in the order of its patches.
+    std::vector<Leaf> owned_leaves() const;
+
+    /**
+     * Makes a forest that has just been constructed the one with these leaves. With
+     * @p owners, the rank of each, each leaf goes to its rank, whatever the weights;
+     * without, leaves are dealt out by weight. Returns whether all leaves are where
+     * @p owners wants them; no if a rank shall have none. Collective, with the same
+     * arguments on all ranks; throws dealii::ExcMessage if the leaves are not those of a
+     * balanced forest over this box.
+     */
+    bool set_leaves(const std::vector<Leaf> &leaves,
+                    const std::vector<unsigned int> &owners = {});
+
     /// Weight of a leaf beyond its fluid cells, for the partition (1000 = one patch).
     std::function<unsigned int(const dealii::BoundingBox<dim> &)> extra_weight;
 
@@ -231,7 +254,12 @@ namespace mitre::grid
       return tria;
     }
 
-    /// Rebuilds the lists of patches from the forest.
+    /**
+     * Rebuilds the lists of patches from the forest. Their order depends on the forest
+     * and its partition only, by level and then along the space-filling curve, and not on
+     * how the forest came about: a run that has been resumed adds numbers up in the same
+     * order.
+     */
     void update();
 
     /// The patch of an active cell that this rank owns or has as ghost.
@@ -243,6 +271,7 @@ namespace mitre::grid
 
   private:
     Index index_of(const dealii::Point<dim> &x, const int level) const;
+    static Leaf leaf_of(const int level, const Index &index);
     bool wrap(const int level, Index &index) const;
 
     const PatchGridParameters<dim> parameters;
@@ -254,6 +283,9 @@ namespace mitre::grid
     dealii::types::global_dof_index global_patches = 0;
     std::vector<Patch<dim>> patches;
     std::vector<Neighbor> neighbors;
+    /// In the place of all other weights while set_leaves() deals out the leaves.
+    std::function<unsigned int(const Leaf &)> exact_weight;
+
     bool mixed_levels = false;
     int lowest_level = 0, highest_level = 0;
 

@@ -29,6 +29,10 @@ namespace mitre::instruments
 
     std::vector<double> measure(const Observation<dim> &observation) override;
 
+    std::vector<double> state() const override;
+
+    void set_state(const std::vector<double> &state) override;
+
   private:
     std::string name;
     MeasuringDisc<dim> disc;

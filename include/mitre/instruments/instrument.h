@@ -1,6 +1,7 @@
 #ifndef mitre_instruments_instrument_h
 #define mitre_instruments_instrument_h
 
+#include <deal.II/base/exceptions.h>
 #include <deal.II/base/parameter_handler.h>
 
 #include <string>
@@ -35,6 +36,19 @@ namespace mitre::instruments
      * the instrument shall look at does not exist.
      */
     virtual std::vector<double> measure(const Observation<dim> &observation) = 0;
+
+    /// What later measurements depend on, for checkpoints; the same on all ranks.
+    virtual std::vector<double> state() const
+    {
+      return {};
+    }
+
+    /// Goes on from what state() returned.
+    virtual void set_state(const std::vector<double> &state)
+    {
+      AssertDimension(state.size(), 0);
+      (void)state;
+    }
   };
 
 

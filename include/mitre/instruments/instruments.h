@@ -26,6 +26,12 @@ namespace mitre::instruments
     /// Their values. Collective.
     std::vector<double> measure(const Observation<dim> &observation);
 
+    /// The state of each, for checkpoints.
+    std::vector<std::vector<double>> state() const;
+
+    /// Go on from what state() returned; the list must be the same.
+    void set_state(const std::vector<std::vector<double>> &state);
+
   private:
     std::vector<std::unique_ptr<Instrument<dim>>> instruments;
   };

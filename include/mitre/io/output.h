@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -66,9 +67,29 @@ namespace mitre::io
                     const structure::VectorType &U,
                     const double time);
 
+    /// Times and file names of the frames of each series.
+    using Frames = std::map<std::string, std::vector<std::pair<double, std::string>>>;
+
+    /// The frames that have been written, for checkpoints.
+    const Frames &written_frames() const
+    {
+      return frames;
+    }
+
+    /// Go on after @p written: the collections list these frames and no others, and the
+    /// next ones take the numbers after them. Collective.
+    void continue_after(const Frames &written);
+
+    /// Hand the files that this rank has written since the last call to the disk.
+    /// Collective.
+    void synchronise();
+
   private:
     /// "fluid_00012", the name of the next frame of a series.
     std::string next_frame(const std::string &series) const;
+
+    /// Rank 0 writes the collection of a series.
+    void write_collection(const std::string &series) const;
 
     /// Rank 0 adds a frame to a collection.
     void
@@ -78,8 +99,8 @@ namespace mitre::io
     const unsigned int rank;
     const std::string folder;
 
-    /// Times and files of the frames of each series.
-    std::map<std::string, std::vector<std::pair<double, std::string>>> frames;
+    Frames frames;
+    mutable std::set<std::string> unsynchronised;
   };
 } // namespace mitre::io
 

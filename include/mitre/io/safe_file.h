@@ -19,6 +19,11 @@ namespace mitre::io
                   const std::function<void(std::ostream &)> &write);
 
 
+  /// Hand a file, or the names in a folder, to the disk (fsync), so that they outlive a
+  /// power failure. Throws base::UserError with the name and the system's reason.
+  void synchronise(const std::string &name);
+
+
   /// Make a folder and those that it lies in, as far as they do not exist. Throws
   /// base::UserError, with the folder and the system's reason.
   void make_folder(const std::string &folder);

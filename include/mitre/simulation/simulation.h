@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,8 +14,10 @@
 #include <mitre/coupling/refinement.h>
 #include <mitre/fluid/navier_stokes.h>
 #include <mitre/instruments/instruments.h>
+#include <mitre/io/checkpoint.h>
 #include <mitre/io/output.h>
 #include <mitre/io/statistics_file.h>
+#include <mitre/simulation/checkpoint_schedule.h>
 #include <mitre/simulation/refinement.h>
 #include <mitre/structure/body.h>
 
@@ -44,18 +47,29 @@ namespace mitre::simulation
     static std::string example_of_all_plugins();
 
     /**
-     * Reads the parameters and the meshes and builds the grid; nothing is written yet.
-     * Throws base::UserError for anything that cannot work.
+     * Reads the parameters and the meshes and builds the grid, or reads the checkpoint to
+     * go on from; nothing is written yet. Throws base::UserError for anything that cannot
+     * work.
+     *
+     * @param resume what to do instead of what the parameter "Resume" says: "auto",
+     * "never", or the folder of a checkpoint or a run; empty: what the parameter says
      */
     Simulation(dealii::ParameterHandler &prm,
                const std::string &parameter_file,
-               const MPI_Comm communicator);
+               const MPI_Comm communicator,
+               const std::string &resume = "");
+
+    ~Simulation();
 
     /// What the run will consist of: parts, materials, sizes, levels, steps.
     void print_summary(std::ostream &out) const;
 
-    /// Runs from the start to the end time.
-    void run();
+    /**
+     * Runs from the start, or from the checkpoint, to the end time. Returns false if the
+     * run has been asked to stop before (see CheckpointSchedule), for which it has left a
+     * checkpoint.
+     */
+    bool run();
 
     /// One time step, without any output. With a "Courant number" to aim at, the step
     /// gets the length that this asks for, and is repeated at half of it if it exceeds
@@ -83,13 +97,43 @@ namespace mitre::simulation
       structure::VectorType X, X_half, U, F;
     };
 
+    /// What a step changes: to go back to when it fails.
+    struct StepState
+    {
+      typename fluid::NavierStokes<dim>::State fluid;
+      std::vector<structure::VectorType> X, U, elastic_force_density;
+      double time_step             = 0.;
+      double courant_number        = 0.;
+      unsigned int last_iterations = 0;
+      unsigned int n_repeated      = 0;
+
+      /// Whether it belongs to the grid as it is.
+      bool valid = false;
+    };
+
+    // in checkpoints.cc
+    void open_checkpoint(const std::string &mode);
+    void check_parameters() const;
+    void restore_positions();
+    void restore_grid();
+    void restore_state();
+    std::vector<io::CheckpointField>
+    checkpoint_fields(typename fluid::NavierStokes<dim>::State &state) const;
+    void write_checkpoint();
+    void save_step();
+    void restore_step_fields();
+    std::string rescue();
+    bool all_ranks_are_here() const;
+
+    bool run_to_end();
+    void prepare_output();
     void read_parts(dealii::ParameterHandler &prm);
     std::function<int(const dealii::BoundingBox<dim> &)> wanted_levels();
     bool regrid();
     double next_time_step() const;
     void step(const double dt);
     void check_courant_number() const;
-    void distribute_parts();
+    void distribute_parts(const std::vector<std::vector<unsigned int>> &node_owners = {});
     void setup_coupling();
     double largest_displacement_since_regrid() const;
     void spread_forces(const bool middle, const double t);
@@ -103,6 +147,26 @@ namespace mitre::simulation
     const std::string parameter_file;
 
     std::string output_folder;
+    CheckpointSchedule schedule;
+    std::unique_ptr<io::CheckpointStore> checkpoints;
+
+    /// The checkpoint that the run goes on from, until it has been read.
+    std::unique_ptr<io::CheckpointReader> resumed;
+    bool is_resumed = false;
+
+    /// Whether it lies in the output folder, whose files are then continued.
+    bool continues_output = false;
+
+    /// The frames of the collections that are continued.
+    typename io::OutputWriter<dim>::Frames frames_to_continue;
+
+    /// The last checkpoint's folder and step.
+    std::string last_checkpoint;
+    long last_checkpoint_step = -1;
+
+    /// Of all parameters (root).
+    std::map<std::string, std::string> parameter_values;
+
     double start_time = 0., end_time, output_interval;
     double largest_time_step, smallest_time_step;
     unsigned int statistics_interval;
@@ -131,6 +195,17 @@ namespace mitre::simulation
     double time_step             = 0.; ///< of the last step
     double last_measured         = 0.; ///< time of the last line of statistics
     unsigned int n_repeated      = 0;  ///< steps that were too long
+    unsigned int n_outputs       = 0;  ///< of fields
+
+    /// Since the last line of statistics: largest number of iterations, steps, and wall
+    /// time at its end [s].
+    unsigned int iterations_since = 0, steps_since = 0;
+    double statistics_clock = 0.;
+
+    StepState before_step;
+
+    /// For all_ranks_are_here().
+    MPI_Comm rescue_communicator = MPI_COMM_NULL;
     grid::VectorType grid_force, middle_velocity;
 
     /// Node positions of each part when the grid was last built, in the order of its

@@ -143,6 +143,22 @@ namespace mitre::structure
     /// The inverse of to_mesh_order().
     void from_mesh_order(const std::vector<double> &values, VectorType &v) const;
 
+    /// The rank that owns each node of the mesh.
+    std::vector<unsigned int> node_owners() const;
+
+    /// Elastic part of the last compute_force_density(), with which the next one starts
+    /// its iteration: a part of the state of a run.
+    const VectorType &elastic_force_density() const
+    {
+      return elastic_density;
+    }
+
+    /// To start the next iteration from @p density.
+    void set_elastic_force_density(const VectorType &density)
+    {
+      elastic_density = density;
+    }
+
     /**
      * Nodal elastic forces @f$G_a = -\int_U P\,\nabla_s\phi_a\,ds@f$ [dyn]. Collective.
      * Throws base::UserError on all ranks if an element is inverted; it names part,
