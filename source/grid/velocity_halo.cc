@@ -220,33 +220,66 @@ namespace mitre::grid
   {
     const PatchGrid<dim> &grid = space.grid();
     const Patch<dim> &patch    = grid.patch(p);
+    const int size             = n;
+
+    // whether a leaf of this level has the cell, and whether only a coarser one has it
+    const auto find = [&](Index cell) {
+      Index finer;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const int cells = grid.n_patches(patch.level, d) * size;
+          if ((cell[d] < 0 || cell[d] >= cells) && !grid.periodic()[d])
+            return std::make_pair(false, false);
+          cell[d]  = (cell[d] + cells) % cells;
+          finer[d] = 2 * cell[d] / size;
+          cell[d] /= size;
+        }
+      const bool same = grid.find(patch.level, cell) != numbers::invalid_unsigned_int;
+      return std::make_pair(same,
+                            !same && grid.find(patch.level + 1, finer) ==
+                                       numbers::invalid_unsigned_int);
+    };
+
+    // the outermost planes of the patch, and what lies beside them
     for (unsigned int side = 0; side < 2 * dim; ++side)
       {
-        if (grid.neighbor(p, side) != Neighbor::coarser)
-          continue;
         const unsigned int c = side / 2;
-        const auto ext       = extents(c);
-        for (unsigned int i = 0; i < Utilities::fixed_power<dim - 1>(n); ++i)
+        const int plane = (side % 2 == 0 ? 0 : size), width = g;
+        const auto ext = extents(c);
+        for (unsigned int i = 0; i < Utilities::fixed_power<dim - 1>(n + 2 * g); ++i)
           {
-            unsigned int to = 0, to_stride = 1, rest = i;
+            unsigned int to = 0, to_stride = 1, rest = i, n_outside = 0;
             Index index;
             for (unsigned int d = 0; d < dim; ++d)
               {
-                unsigned int own = (side % 2 == 0 ? 0 : n);
+                int own = plane;
                 if (d != c)
                   {
-                    own = rest % n;
-                    rest /= n;
+                    own = static_cast<int>(rest % (n + 2 * g)) - width;
+                    rest /= n + 2 * g;
+                    n_outside += (own < 0 || own >= size ? 1 : 0);
                   }
-                to += (own + g) * to_stride;
+                to += (own + width) * to_stride;
                 to_stride *= ext[d];
-                index[d] = patch.index[d] * static_cast<int>(n) + static_cast<int>(own);
+                index[d] = patch.index[d] * size + own;
               }
+            if (n_outside > (halo_shape == HaloShape::star ? 1 : dim))
+              continue;
+            Index lower = index;
+            lower[c] -= 1;
+            const auto below = find(lower), above = find(index);
+            if (!(below.first && above.second) && !(below.second && above.first))
+              continue;
             LinearCombination<dim> row;
             const bool found =
               space.interface_value(patch.level, c, index, extension, row);
             AssertThrow(found, ExcInternalError());
-            result[c].emplace_back(to, std::move(row));
+            const auto same = [to](const auto &entry) { return entry.first == to; };
+            const auto old  = std::find_if(result[c].begin(), result[c].end(), same);
+            if (old != result[c].end())
+              old->second = std::move(row);
+            else
+              result[c].emplace_back(to, std::move(row));
           }
       }
   }

@@ -98,8 +98,10 @@ namespace
     grid::VectorType force;
     flow.operators().initialize_velocity(force);
     double time = 0.;
-    for (const double dt : {0.1, 0.01})
-      for (unsigned int step = 0; step < 10; ++step, time += dt)
+    // mu dt / (rho h^2) stays below 1000
+    const unsigned int times = std::max(1u, n / 32);
+    for (const double dt : {0.1 / times, 0.01})
+      for (unsigned int step = 0; step < 10 * times; ++step, time += dt)
         flow.advance(time, dt, force);
 
     double sum = 0., volume = 0.;
@@ -245,7 +247,7 @@ main(int argc, char **argv)
   check<2>(32, false, 1.8);
   check<3>(16, true, 1.5);
   const Result uniform = run<2>(32, false, false);
-  out() << "2D, oblique channel on one level: " << below(uniform.velocity, 1e-7)
+  out() << "2D, oblique channel on one level: " << below(uniform.velocity, 1e-5)
         << std::endl;
   out() << "change of momentum by viscosity where levels meet: 2D "
         << below(std::max(momentum_change<2>(2), momentum_change<2>(3)), 1e-13) << ", 3D "
