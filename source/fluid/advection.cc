@@ -68,9 +68,41 @@ namespace mitre::fluid
       return select(down * up > 0., with_sign(min(abs(mean), bound), mean), 0.);
     }
 
-    /// How much larger than its neighbours a second difference may be (Colella and
-    /// Sekora, J. Comput. Phys. 227 (2008) 7069-7076).
-    constexpr double curvature_ratio = 1.25;
+    /// The argument of least size, or zero where signs differ.
+    [[gnu::always_inline]] inline Lanes minmod(const Lanes &a, const Lanes &b)
+    {
+      return select(a * b > 0., with_sign(min(abs(a), abs(b)), a), 0.);
+    }
+
+    /**
+     * The difference @p edge from the value of an interval to that at one of its ends,
+     * limited to the interval of Suresh and Huynh, which has no values beyond monotone
+     * ones but where there is a smooth extremum. @p step and @p back are the differences
+     * to the next value beyond that end and from the one on the other side; @p
+     * curvature_next and @p curvature_back the second differences at these two.
+     */
+    [[gnu::always_inline]] inline Lanes limited_edge(const Lanes &edge,
+                                                     const Lanes &step,
+                                                     const Lanes &back,
+                                                     const Lanes &curvature,
+                                                     const Lanes &curvature_next,
+                                                     const Lanes &curvature_back)
+    {
+      // how far an edge may be, in differences to the value behind it
+      constexpr double steepness = 2.;
+      const Mask outside         = edge * (edge - minmod(step, steepness * back)) > 0.;
+      if (none_of(outside))
+        return edge;
+      const auto least = [](const Lanes &a, const Lanes &b) {
+        return minmod(minmod(4. * a - b, 4. * b - a), minmod(a, b));
+      };
+      const Lanes zero = 0., middle = 0.5 * step - 0.5 * least(curvature, curvature_next),
+                  upwind = steepness * back,
+                  large  = 0.5 * back + (4. / 3.) * least(curvature, curvature_back);
+      const Lanes low  = max(min(zero, min(step, middle)), min(zero, min(upwind, large)));
+      const Lanes high = min(max(zero, max(step, middle)), max(zero, max(upwind, large)));
+      return select(outside, edge + minmod(low - edge, high - edge), edge);
+    }
 
     /// Cubic upwind interpolation to a face in the normalised variable
     /// (q - q_up) / (q_down - q_up), limited to be bounded.
@@ -105,7 +137,7 @@ namespace mitre::fluid
           {
             curvature_below = before - 2. * below + here;
             curvature       = below - 2. * here + above;
-            edge            = edge_difference(here - below, curvature_below, curvature);
+            edge = 0.5 * (here - below) - (1. / 12.) * (curvature_below + curvature);
           }
         else
           (void)before, (void)below, (void)here, (void)above;
@@ -123,39 +155,18 @@ namespace mitre::fluid
         if constexpr (scheme == AdvectionScheme::ppm)
           {
             const Lanes curvature_above = here - 2. * above + after;
-            const Lanes a               = edge - (here - below);
-            const Lanes b     = edge_difference(above - here, curvature, curvature_above);
-            const Lanes twist = (here - before) * (after - here);
-            const Lanes a_size = abs(a), b_size = abs(b);
-            lower            = here + a;
-            upper            = here + b;
-            const Mask plain = (a * b < 0. && twist > 0. && a_size <= 2. * b_size &&
-                                b_size <= 2. * a_size) ||
-                               (a_size + b_size == 0.);
-            if (!all_of(plain))
-              {
-                // at an extremum the parabola's curvature is limited, elsewhere the
-                // parabola is made monotone
-                const Lanes whole = 6. * (a + b), size = abs(whole);
-                const Lanes least =
-                  min(abs(curvature), min(abs(curvature_below), abs(curvature_above)));
-                const Mask same = whole * curvature > 0. &&
-                                  whole * curvature_below > 0. &&
-                                  whole * curvature_above > 0.;
-                const Lanes bound = select(same, curvature_ratio * least, 0.);
-                const Lanes share =
-                  select(size > bound, bound / max(size, Lanes(1e-300)), 1.);
-                const Mask extremum = a * b >= 0. || twist <= 0.;
-                lower =
-                  here +
-                  select(extremum, share * a, select(a_size > 2. * b_size, -2. * b, a));
-                upper =
-                  here +
-                  select(extremum, share * b, select(b_size > 2. * a_size, -2. * a, b));
-              }
+            const Lanes up = above - here, down = here - below;
+            const Lanes next_edge = 0.5 * up - (1. / 12.) * (curvature + curvature_above);
+            lower =
+              here +
+              limited_edge(
+                edge - down, -down, -up, curvature, curvature_below, curvature_above);
+            upper =
+              here + limited_edge(
+                       next_edge, up, down, curvature, curvature_above, curvature_below);
             curvature_below = curvature;
             curvature       = curvature_above;
-            edge            = b;
+            edge            = next_edge;
           }
         else if constexpr (scheme == AdvectionScheme::monotone_ppm)
           {
@@ -183,27 +194,6 @@ namespace mitre::fluid
       }
 
     private:
-      /**
-       * The difference from the value here of that halfway to the next one, which is
-       * @p step larger, by the cubic whose means are the values around it. Where that
-       * does not lie between the two, its curvature is limited to those of both.
-       */
-      [[gnu::always_inline]] static Lanes edge_difference(const Lanes &step,
-                                                          const Lanes &curvature_here,
-                                                          const Lanes &curvature_above)
-      {
-        const Lanes result = 0.5 * step - (1. / 12.) * (curvature_here + curvature_above);
-        const Mask outside = result * (step - result) < 0.;
-        if (none_of(outside))
-          return result;
-        const Lanes wanted = 3. * (step - 2. * result);
-        const Lanes size   = min(
-          abs(wanted), curvature_ratio * min(abs(curvature_here), abs(curvature_above)));
-        const Mask same = wanted * curvature_here > 0. && wanted * curvature_above > 0.;
-        const Lanes limited = select(same, with_sign(size, wanted), 0.);
-        return select(outside, 0.5 * step - (1. / 6.) * limited, result);
-      }
-
       /// Of the interval below, of this one, and the value between the two less the
       /// lower one.
       Lanes curvature_below = 0., curvature = 0., edge = 0.;

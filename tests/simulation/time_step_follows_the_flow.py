@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A channel with a soft block in it, driven by a pressure that jumps up in the middle of
+"""A channel with a soft block in it, driven by a pressure that swells in the middle of
 the run, with steps of a given Courant number: no step passes more cells than the largest
 number, those that would are repeated at half their length, the steps grow and shrink, the
 run ends when it should, and flow and block end within 2 % (of their largest values) of a
@@ -58,7 +58,7 @@ subsection Boundary conditions
   subsection Condition inlet
     set Faces    = x min
     set Type     = pressure
-    set Pressure = 2 + 400*(t > 0.2)*(t < 0.21)
+    set Pressure = 2 + 100*(t > 0.2)*(t < 0.3)*sin(31.415926535897931*(t - 0.2))^2
   end
   subsection Condition outlet
     set Faces = x max

@@ -11,9 +11,9 @@ namespace mitre::fluid
   /// How the advected velocity is reconstructed between its grid positions.
   enum class AdvectionScheme : unsigned char
   {
-    /// Piecewise parabolic, upwinded, monotonised but where there is a smooth extremum
-    /// (Colella and Sekora, J. Comput. Phys. 227 (2008) 7069-7076; of the same kind as
-    /// Rider, Greenough and Kamm, J. Comput. Phys. 225 (2007) 1827-1848).
+    /// Piecewise parabolic edge values, upwinded, monotonised but where there is a smooth
+    /// extremum (limiter of Suresh and Huynh, J. Comput. Phys. 136 (1997) 83-99, as used
+    /// for such values by Rider, Greenough and Kamm, J. Comput. Phys. 225 (2007) 1827).
     ppm,
     /// Piecewise parabolic, upwinded, monotonised everywhere, which flattens extrema
     /// (Colella and Woodward, J. Comput. Phys. 54 (1984) 174-201).
