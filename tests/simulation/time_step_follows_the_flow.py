@@ -58,7 +58,7 @@ subsection Boundary conditions
   subsection Condition inlet
     set Faces    = x min
     set Type     = pressure
-    set Pressure = 2 + 100*(t > 0.2)*(t < 0.3)*sin(31.415926535897931*(t - 0.2))^2
+    set Pressure = 2 + 40*(t > 0.2)*(t < 0.3)*sin(31.415926535897931*(t - 0.2))^2
   end
   subsection Condition outlet
     set Faces = x max
