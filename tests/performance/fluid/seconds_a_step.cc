@@ -153,6 +153,25 @@ namespace
                  l2  = std::sqrt(Utilities::MPI::sum(error[1], MPI_COMM_WORLD)),
                  max = Utilities::MPI::max(error[2], MPI_COMM_WORLD);
 
+    // a change of the grid to finer patches in one more box, and back
+    std::vector<double> regrids;
+    if (name == "adaptive")
+      for (const bool more : {true, false})
+        {
+          const auto wanted = refine_quarter(patch_grid);
+          MPI_Barrier(MPI_COMM_WORLD);
+          const auto start = Clock::now();
+          flow.regrid(
+            [&](const BoundingBox<3> &leaf) {
+              const bool inside = more && leaf.center()[0] > 0.5 &&
+                                  leaf.center()[0] < 0.75 && leaf.center()[1] < 0.25 &&
+                                  leaf.center()[2] < 0.25;
+              return inside ? static_cast<int>(patch_grid.maximum_level()) : wanted(leaf);
+            },
+            n_steps * dt);
+          regrids.push_back(Utilities::MPI::max(seconds_since(start), MPI_COMM_WORLD));
+        }
+
     std::sort(times.begin(), times.end());
     std::sort(iterations.begin(), iterations.end());
     const double median = times[times.size() / 2];
@@ -188,6 +207,10 @@ namespace
                     "other",
                     1e3 * rest / times.size(),
                     1e9 * rest / times.size() / cells);
+        for (const double seconds : regrids)
+          std::printf("         change of the grid %.3f s, %.1f steps\n",
+                      seconds,
+                      seconds / median);
         std::fflush(stdout);
       }
   }
