@@ -239,7 +239,8 @@ main(int argc, char **argv)
             << std::endl;
       for (const bool stokes : {true, false})
         for (const bool refined : {false, true})
-          print_table<2>(stokes, refined, 16, 128);
+          // the strip takes two patches at least
+          print_table<2>(stokes, refined, refined && !stokes ? 32 : 16, 128);
       print_table<3>(true, true, 16, 32);
       return 0;
     }
