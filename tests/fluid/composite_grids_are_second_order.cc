@@ -19,7 +19,7 @@
 
 #include <cstring>
 
-#include "fluid_tests.h"
+#include "momentum.h"
 
 using namespace grid_tests;
 using namespace fluid_tests;
@@ -207,23 +207,7 @@ namespace
     interpolate(space, noise<dim>, u);
     space.synchronize(u);
     operators.apply_helmholtz(force, u, 0., 1., false);
-    std::array<double, dim> sum{};
-    double size = 0.;
-    for_each_face(space,
-                  [&](const std::size_t entry,
-                      const unsigned int,
-                      const unsigned int c,
-                      const Point<dim> &) {
-                    const double gain =
-                      space.volumes().local_element(entry) * force.local_element(entry);
-                    sum[c] += gain;
-                    size += std::abs(gain);
-                  });
-    size           = Utilities::MPI::sum(size, MPI_COMM_WORLD);
-    double largest = 0.;
-    for (const double s : sum)
-      largest = std::max(largest, std::abs(Utilities::MPI::sum(s, MPI_COMM_WORLD)));
-    return largest / size;
+    return relative_momentum(space, force);
   }
 } // namespace
 
