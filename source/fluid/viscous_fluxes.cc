@@ -15,8 +15,12 @@ namespace mitre::fluid
     if (!patch_grid.has_coarse_fine_interfaces())
       return;
     const int n = patch_grid.n_cells_per_side();
+    Row row;
     for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
       {
+        if (!patch_grid.touches_other_level(p))
+          continue;
+        row.coarse_values.clear();
         const auto &patch = patch_grid.patch(p);
         double volume     = 1.;
         for (unsigned int d = 0; d < dim; ++d)
@@ -48,25 +52,24 @@ namespace mitre::fluid
               if (!touches_finer(patch.level, c, i))
                 continue;
 
-              Row row;
               double control_volume = 0.;
               for (unsigned int half = 0; half < 2; ++half)
                 {
                   Index cell = i;
                   cell[c] -= (half == 0 ? 1 : 0);
-                  const Leaf leaf = leaf_at(patch.level, cell);
-                  if (leaf == Leaf::none)
+                  const Neighbor leaf = patch_grid.leaf_at(patch.level, cell);
+                  if (leaf == Neighbor::boundary)
                     continue;
-                  control_volume += (leaf == Leaf::finer ? 0.25 : 0.5) * volume;
+                  control_volume += (leaf == Neighbor::finer ? 0.25 : 0.5) * volume;
                 }
               for (unsigned int half = 0; half < 2; ++half)
                 {
                   Index cell = i;
                   cell[c] -= (half == 0 ? 1 : 0);
-                  const Leaf leaf = leaf_at(patch.level, cell);
-                  if (leaf == Leaf::same)
+                  const Neighbor leaf = patch_grid.leaf_at(patch.level, cell);
+                  if (leaf == Neighbor::same)
                     add_half_balance(patch.level, c, i, half, 1. / control_volume, row);
-                  else if (leaf == Leaf::finer)
+                  else if (leaf == Neighbor::finer)
                     for (unsigned int k = 0; k < (1u << (dim - 1)); ++k)
                       {
                         Index fine;
@@ -89,49 +92,23 @@ namespace mitre::fluid
                     {
                       Index beyond = i;
                       beyond[d] += sign;
-                      Row value;
+                      row.value.clear();
                       const bool found = space.combination(patch.level,
                                                            c,
                                                            beyond,
                                                            BoundaryExtension::quadratic,
                                                            true,
-                                                           value);
+                                                           row.value,
+                                                           &row.coarse_values);
                       AssertThrow(found, ExcInternalError());
-                      row.add(value, -w);
+                      row.sum.add(row.value, -w, row.coarse_values);
                     }
                 }
               add_value(patch.level, c, i, center, row);
-              row.merge();
-              rows.append(space.first_dof(p, c) + entry, std::move(row));
+              row.sum.move_to(row.value);
+              rows.append(space.first_dof(p, c) + entry, row.value);
             }
       }
-  }
-
-
-  template <int dim>
-  typename ViscousFluxes<dim>::Leaf ViscousFluxes<dim>::leaf_at(const int level,
-                                                                const Index &cell) const
-  {
-    const int n = patch_grid.n_cells_per_side();
-    Index where, finer;
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        const int size = patch_grid.n_patches(level, d) * n;
-        int position   = cell[d];
-        if (position < 0 || position >= size)
-          {
-            if (!patch_grid.periodic()[d])
-              return Leaf::none;
-            position = (position + size) % size;
-          }
-        where[d] = position / n;
-        finer[d] = 2 * position / n;
-      }
-    if (patch_grid.find(level, where) != numbers::invalid_unsigned_int)
-      return Leaf::same;
-    return patch_grid.find(level + 1, finer) != numbers::invalid_unsigned_int
-             ? Leaf::finer
-             : Leaf::coarser;
   }
 
 
@@ -144,16 +121,23 @@ namespace mitre::fluid
   {
     Index below = i;
     below[c] -= 1;
-    const Leaf a = leaf_at(level, below), b = leaf_at(level, i);
-    const bool on_interface =
-      (a == Leaf::same && b == Leaf::coarser) || (a == Leaf::coarser && b == Leaf::same);
-    Row value;
+    const Neighbor a = patch_grid.leaf_at(level, below), b = patch_grid.leaf_at(level, i);
+    const bool on_interface = (a == Neighbor::same && b == Neighbor::coarser) ||
+                              (a == Neighbor::coarser && b == Neighbor::same);
+    row.value.clear();
     const bool found =
       on_interface
-        ? space.interface_value(level, c, i, BoundaryExtension::quadratic, value)
-        : space.combination(level, c, i, BoundaryExtension::quadratic, true, value);
+        ? space.interface_value(
+            level, c, i, BoundaryExtension::quadratic, row.value, &row.coarse_values)
+        : space.combination(level,
+                            c,
+                            i,
+                            BoundaryExtension::quadratic,
+                            true,
+                            row.value,
+                            &row.coarse_values);
     AssertThrow(found, ExcInternalError());
-    row.add(value, factor);
+    row.sum.add(row.value, factor, row.coarse_values);
   }
 
 
@@ -170,7 +154,7 @@ namespace mitre::fluid
     Index beyond = i;
     beyond[c] -= (half == 0 ? 1 : 0);
     beyond[d] += sign;
-    if (leaf_at(level, beyond) != Leaf::finer)
+    if (patch_grid.leaf_at(level, beyond) != Neighbor::finer)
       {
         double weight = 0.5 * factor / patch_grid.cell_width(level, d);
         for (unsigned int e = 0; e < dim; ++e)
@@ -238,10 +222,10 @@ namespace mitre::fluid
       {
         Index cell = i;
         cell[c] -= (half == 0 ? 1 : 0);
-        const Leaf leaf = leaf_at(level, cell);
-        if (leaf == Leaf::finer)
+        const Neighbor leaf = patch_grid.leaf_at(level, cell);
+        if (leaf == Neighbor::finer)
           return true;
-        if (leaf != Leaf::same)
+        if (leaf != Neighbor::same)
           continue;
         for (unsigned int d = 0; d < dim; ++d)
           if (d != c)
@@ -249,7 +233,7 @@ namespace mitre::fluid
               {
                 Index beyond = cell;
                 beyond[d] += step;
-                if (leaf_at(level, beyond) == Leaf::finer)
+                if (patch_grid.leaf_at(level, beyond) == Neighbor::finer)
                   return true;
               }
       }

@@ -259,6 +259,54 @@ namespace mitre::grid
 
 
   template <int dim>
+  Neighbor PatchGrid<dim>::leaf_at(const int level, Index cell) const
+  {
+    const int size = n;
+    Index finer;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const int cells = n_patches(level, d) * size;
+        if (cell[d] < 0 || cell[d] >= cells)
+          {
+            if (!parameters.periodic[d])
+              return Neighbor::boundary;
+            cell[d] = (cell[d] + cells) % cells;
+          }
+        finer[d] = 2 * cell[d] / size;
+        cell[d] /= size;
+      }
+    if (find(level, cell) != numbers::invalid_unsigned_int)
+      return Neighbor::same;
+    return find(level + 1, finer) != numbers::invalid_unsigned_int ? Neighbor::finer
+                                                                   : Neighbor::coarser;
+  }
+
+
+  template <int dim>
+  bool PatchGrid<dim>::touches_other_level(const unsigned int p) const
+  {
+    for (unsigned int direction = 0; direction < Utilities::fixed_power<dim>(3u);
+         ++direction)
+      {
+        Index index       = patches[p].index;
+        unsigned int rest = direction;
+        bool outside      = false;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            index[d] += static_cast<int>(rest % 3) - 1;
+            rest /= 3;
+            outside =
+              outside || (!parameters.periodic[d] &&
+                          (index[d] < 0 || index[d] >= n_patches(patches[p].level, d)));
+          }
+        if (!outside && find(patches[p].level, index) == numbers::invalid_unsigned_int)
+          return true;
+      }
+    return false;
+  }
+
+
+  template <int dim>
   unsigned int
   PatchGrid<dim>::patch_of(const typename Triangulation<dim>::cell_iterator &cell) const
   {

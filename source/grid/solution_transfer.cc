@@ -79,16 +79,13 @@ namespace mitre::grid
     : grid(grid)
     , space(space)
     , cells(cells)
+    , halo(space, 1, HaloShape::star, BoundaryExtension::reflection)
     , velocities(velocities)
     , cell_values(cell_values)
   {
+    halo.make_own_partitioner();
     for (const VectorType *u : velocities)
-      {
-        velocity_halos.push_back(std::make_unique<VelocityHalo<dim>>(
-          space, 1, HaloShape::star, BoundaryExtension::reflection));
-        velocity_halos.back()->make_own_partitioner();
-        velocity_halos.back()->import(*u);
-      }
+      ghosted_velocities.push_back(halo.import(*u));
     for (const VectorType *p : cell_values)
       {
         ghosted_cells.push_back(*p);
@@ -184,9 +181,8 @@ namespace mitre::grid
           for (unsigned int c = 0; c < dim; ++c)
             if (refine)
               {
-                std::vector<double> padded(velocity_halos[v]->size(c), 0.);
-                velocity_halos[v]->gather(
-                  velocity_halos[v]->last_import(), p, c, padded.data());
+                std::vector<double> padded(halo.size(c), 0.);
+                halo.gather(ghosted_velocities[v], p, c, padded.data());
                 append(padded.data(), padded.size());
               }
             else

@@ -3,6 +3,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <limits>
 
 #include <mitre/grid/staggered_space.h>
 
@@ -14,8 +15,11 @@ namespace mitre::grid
   void LinearCombination<dim>::add(const LinearCombination<dim> &other,
                                    const double factor)
   {
+    repeats = repeats || other.repeats || !entries.empty();
     for (const auto &entry : other.entries)
       entries.emplace_back(entry.first, entry.second * factor);
+    for (const auto &value : other.auxiliary)
+      auxiliary.emplace_back(value.first, value.second * factor);
     for (BoundaryTerm<dim> term : other.boundary)
       {
         term.weight *= factor;
@@ -35,14 +39,89 @@ namespace mitre::grid
       else
         entries[size++] = entries[i];
     entries.resize(size);
+    repeats = false;
+  }
+
+
+  template <int dim>
+  void LinearCombination<dim>::clear()
+  {
+    entries.clear();
+    auxiliary.clear();
+    boundary.clear();
+    repeats = false;
+  }
+
+
+  template <int dim>
+  void CoarseValues<dim>::clear()
+  {
+    numbers.clear();
+    places.clear();
+    auxiliary.clear();
+  }
+
+
+  template <int dim>
+  void CombinationSum<dim>::add(const LinearCombination<dim> &terms, const double factor)
+  {
+    for (const auto &[unknown, weight] : terms.entries)
+      {
+        const auto [number, is_new] = numbers.insert(unknown);
+        if (is_new)
+          {
+            number = total.entries.size();
+            total.entries.emplace_back(unknown, factor * weight);
+          }
+        else
+          total.entries[number].second += factor * weight;
+      }
+    for (BoundaryTerm<dim> term : terms.boundary)
+      {
+        term.weight *= factor;
+        total.boundary.push_back(term);
+      }
+  }
+
+
+  template <int dim>
+  void CombinationSum<dim>::add(const LinearCombination<dim> &terms,
+                                const double factor,
+                                const CoarseValues<dim> &coarse_values)
+  {
+    add(terms, factor);
+    for (const auto &[number, weight] : terms.auxiliary)
+      add(coarse_values.values()[number], factor * weight);
+  }
+
+
+  template <int dim>
+  void CombinationSum<dim>::move_to(LinearCombination<dim> &sum)
+  {
+    sum.clear();
+    sum.entries.swap(total.entries);
+    sum.boundary.swap(total.boundary);
+    numbers.clear();
   }
 
 
   template <int dim>
   unsigned int CombinationTable<dim>::append(const unsigned int destination,
-                                             LinearCombination<dim> &&row)
+                                             LinearCombination<dim> &row)
   {
-    row.merge();
+    for (const auto &[value, weight] : row.auxiliary)
+      {
+        Assert(value <= std::numeric_limits<unsigned short int>::max(),
+               ExcInternalError());
+        auxiliary_columns.push_back(value);
+        auxiliary_weights.push_back(weight);
+      }
+    auxiliary_starts.push_back(auxiliary_columns.size());
+    if (row.repeats)
+      {
+        sum.add(row, 1.);
+        sum.move_to(row);
+      }
     const unsigned int number = destinations.size();
     destinations.push_back(destination);
     for (const auto &entry : row.entries)
@@ -58,10 +137,17 @@ namespace mitre::grid
 
 
   template <int dim>
-  void CombinationTable<dim>::collect_indices(
-    std::vector<types::global_dof_index> &indices) const
+  void CombinationTable<dim>::collect_ghosts(
+    const std::pair<types::global_dof_index, types::global_dof_index> &owned,
+    std::vector<types::global_dof_index> &ghosts) const
   {
-    indices.insert(indices.end(), global_columns.begin(), global_columns.end());
+    const std::size_t n_before = ghosts.size();
+    for (const types::global_dof_index entry : global_columns)
+      if (entry < owned.first || entry >= owned.second)
+        ghosts.push_back(entry);
+    const auto begin = ghosts.begin() + n_before;
+    std::sort(begin, ghosts.end());
+    ghosts.erase(std::unique(begin, ghosts.end()), ghosts.end());
   }
 
 
@@ -91,7 +177,8 @@ namespace mitre::grid
   template <int dim>
   std::size_t CombinationTable<dim>::memory_consumption() const
   {
-    return destinations.size() * 8 + columns.size() * 12 +
+    return destinations.size() * 12 + columns.size() * 12 +
+           auxiliary_columns.size() * 10 +
            boundary_terms.size() * sizeof(boundary_terms[0]) + boundary_values.size() * 8;
   }
 
@@ -234,6 +321,7 @@ namespace mitre::grid
       }
 
     const std::size_t n_before = result.entries.size();
+    result.repeats             = result.repeats || n_before > 0;
     for (unsigned int k = 0; k < (dim == 2 ? 16 : 64); ++k)
       {
         double weight = 1.;
@@ -264,7 +352,8 @@ namespace mitre::grid
                                         Index index,
                                         const BoundaryExtension extension,
                                         const bool interpolate,
-                                        LinearCombination<dim> &result) const
+                                        LinearCombination<dim> &result,
+                                        CoarseValues<dim> *coarse_values) const
   {
     // outside of the box: periodic image, or extension by the boundary condition
     for (unsigned int d = 0; d < dim; ++d)
@@ -289,7 +378,7 @@ namespace mitre::grid
           // depth 0 is the boundary face or the cell next to the boundary
           inside[d] = above ? (d == c ? size - depth : size - 1 - depth) : depth;
           LinearCombination<dim> part;
-          if (!combination(level, c, inside, extension, interpolate, part))
+          if (!combination(level, c, inside, extension, interpolate, part, coarse_values))
             return false;
           result.add(part, weight);
           return true;
@@ -318,6 +407,7 @@ namespace mitre::grid
     const types::global_dof_index entry = find_entry(level, c, index);
     if (entry != numbers::invalid_dof_index)
       {
+        result.repeats = result.repeats || !result.entries.empty();
         result.entries.emplace_back(entry, 1.);
         return true;
       }
@@ -343,6 +433,7 @@ namespace mitre::grid
         }
       if (all)
         {
+          result.repeats = result.repeats || !result.entries.empty();
           for (const types::global_dof_index f : fine)
             result.entries.emplace_back(f, 1. / n_fine);
           return true;
@@ -352,21 +443,122 @@ namespace mitre::grid
     if (!interpolate || level == 0)
       return false;
     Index coarse;
-    return interpolate_from_coarser(level, c, index, extension, 0, coarse, result);
+    return interpolate_from_coarser(
+      level, c, index, extension, 0, coarse, result, coarse_values);
   }
 
 
   template <int dim>
-  bool StaggeredSpace<dim>::interpolate_from_coarser(const int level,
-                                                     const unsigned int c,
-                                                     const Index &index,
-                                                     const BoundaryExtension extension,
-                                                     const unsigned int d,
-                                                     Index &coarse,
-                                                     LinearCombination<dim> &result) const
+  bool StaggeredSpace<dim>::add_coarse_value(const int level,
+                                             const unsigned int c,
+                                             const Index &index,
+                                             const BoundaryExtension extension,
+                                             const double weight,
+                                             LinearCombination<dim> &result,
+                                             CoarseValues<dim> *coarse_values) const
+  {
+    const auto compute = [&](LinearCombination<dim> &value) {
+      return combination(level, c, index, extension, false, value);
+    };
+    if (coarse_values == nullptr)
+      {
+        LinearCombination<dim> value;
+        if (!compute(value))
+          return false;
+        result.add(value, weight);
+        return true;
+      }
+    using Place        = typename CoarseValues<dim>::Place;
+    const Place &place = coarse_values->find(level, c, index, compute);
+    if (place.kind == Place::unknown)
+      {
+        result.entries.emplace_back(place.number, weight);
+      }
+    else if (place.kind == Place::auxiliary)
+      result.auxiliary.emplace_back(place.number, weight);
+    return place.kind != Place::nowhere;
+  }
+
+
+  template <int dim>
+  bool StaggeredSpace<dim>::add_coarse_values(
+    const int level,
+    const unsigned int c,
+    const Index &first,
+    const std::array<std::pair<unsigned int, std::array<double, 3>>, dim> &lines,
+    const BoundaryExtension extension,
+    LinearCombination<dim> &result,
+    CoarseValues<dim> *coarse_values) const
+  {
+    const std::size_t n_entries   = result.entries.size(),
+                      n_auxiliary = result.auxiliary.size(),
+                      n_boundary  = result.boundary.size();
+    result.repeats                = result.repeats || n_entries > 0;
+    Index index;
+    const unsigned int nz = (dim == 3 ? lines[dim - 1].first : 1);
+    for (unsigned int k = 0; k < nz; ++k)
+      for (unsigned int j = 0; j < lines[1].first; ++j)
+        for (unsigned int i = 0; i < lines[0].first; ++i)
+          {
+            index[0]      = first[0] + static_cast<int>(i);
+            index[1]      = first[1] + static_cast<int>(j);
+            double weight = lines[0].second[i] * lines[1].second[j];
+            if constexpr (dim == 3)
+              {
+                index[2] = first[2] + static_cast<int>(k);
+                weight *= lines[2].second[k];
+              }
+            if (!add_coarse_value(
+                  level, c, index, extension, weight, result, coarse_values))
+              {
+                result.entries.resize(n_entries);
+                result.auxiliary.resize(n_auxiliary);
+                result.boundary.resize(n_boundary);
+                return false;
+              }
+          }
+    return true;
+  }
+
+
+  template <int dim>
+  bool
+  StaggeredSpace<dim>::interpolate_from_coarser(const int level,
+                                                const unsigned int c,
+                                                const Index &index,
+                                                const BoundaryExtension extension,
+                                                const unsigned int d,
+                                                Index &coarse,
+                                                LinearCombination<dim> &result,
+                                                CoarseValues<dim> *coarse_values) const
   {
     if (d == dim)
-      return combination(level - 1, c, coarse, extension, false, result);
+      return add_coarse_value(level - 1, c, coarse, extension, 1., result, coarse_values);
+    if (d == 0)
+      {
+        // the preferred stencils in all directions, nearly everywhere
+        Index first;
+        std::array<std::pair<unsigned int, std::array<double, 3>>, dim> lines;
+        for (unsigned int e = 0; e < dim; ++e)
+          {
+            first[e]       = (index[e] >= 0 ? index[e] / 2 : (index[e] - 1) / 2);
+            const bool odd = (index[e] - 2 * first[e]) == 1;
+            if (e != c)
+              {
+                first[e] -= 1;
+                lines[e] = {3, {{5. / 32., 15. / 16., -3. / 32.}}};
+                if (odd)
+                  std::swap(lines[e].second[0], lines[e].second[2]);
+              }
+            else if (odd)
+              lines[e] = {3, {{0.375, 0.75, -0.125}}};
+            else
+              lines[e] = {1, {{1., 0., 0.}}};
+          }
+        if (add_coarse_values(
+              level - 1, c, first, lines, extension, result, coarse_values))
+          return true;
+      }
 
     // Stencils in order of preference: offsets from the base point, weights.
     struct Stencil
@@ -420,8 +612,8 @@ namespace mitre::grid
           {
             coarse[d] = base + stencils[k].offset[j];
             LinearCombination<dim> part;
-            possible =
-              interpolate_from_coarser(level, c, index, extension, d + 1, coarse, part);
+            possible = interpolate_from_coarser(
+              level, c, index, extension, d + 1, coarse, part, coarse_values);
             if (possible)
               candidate.add(part, stencils[k].weight[j]);
           }
@@ -540,8 +732,7 @@ namespace mitre::grid
                       }
                   }
               const unsigned int in_plane = (i / s) * s * (n + 1) + i % s;
-              interface_faces.append(first_dof(p, c) + plane * s + in_plane,
-                                     std::move(row));
+              interface_faces.append(first_dof(p, c) + plane * s + in_plane, row);
             }
         }
   }
@@ -592,17 +783,22 @@ namespace mitre::grid
 
 
   template <int dim>
+  std::pair<types::global_dof_index, types::global_dof_index>
+  StaggeredSpace<dim>::owned_range() const
+  {
+    const types::global_dof_index n_owned = patch_grid.n_owned_patches();
+    const types::global_dof_index begin =
+      n_owned == 0 ? 0 : patch_grid.patch(0).global_id * n_dofs_per_patch();
+    return {begin, begin + n_owned * n_dofs_per_patch()};
+  }
+
+
+  template <int dim>
   IndexSet StaggeredSpace<dim>::owned_entries() const
   {
-    const types::global_dof_index begin =
-      patch_grid.n_owned_patches() == 0
-        ? 0
-        : patch_grid.patch(0).global_id * n_dofs_per_patch();
+    const auto [begin, end] = owned_range();
     IndexSet owned(patch_grid.n_global_patches() * n_dofs_per_patch());
-    owned.add_range(begin,
-                    begin +
-                      static_cast<types::global_dof_index>(patch_grid.n_owned_patches()) *
-                        n_dofs_per_patch());
+    owned.add_range(begin, end);
     return owned;
   }
 
@@ -610,7 +806,7 @@ namespace mitre::grid
   template <int dim>
   void StaggeredSpace<dim>::finalize(std::vector<types::global_dof_index> &&ghosts)
   {
-    interface_faces.collect_indices(ghosts);
+    interface_faces.collect_ghosts(owned_range(), ghosts);
     for (const auto &copy : remote_copies)
       ghosts.push_back(copy.second);
 
@@ -791,6 +987,10 @@ namespace mitre::grid
 
   template struct LinearCombination<2>;
   template struct LinearCombination<3>;
+  template class CoarseValues<2>;
+  template class CoarseValues<3>;
+  template class CombinationSum<2>;
+  template class CombinationSum<3>;
   template class CombinationTable<2>;
   template class CombinationTable<3>;
   template class StaggeredSpace<2>;

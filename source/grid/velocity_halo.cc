@@ -118,19 +118,18 @@ namespace mitre::grid
     block_starts                     = {0};
     single_starts                    = {0};
     row_starts                       = {0};
+    auxiliary_starts                 = {0};
     const unsigned int own_direction = n_directions<dim>() / 2;
 
-    std::vector<std::vector<std::pair<unsigned int, types::global_dof_index>>> singles(
-      dim);
-    std::vector<std::vector<std::pair<unsigned int, LinearCombination<dim>>>> combos(dim);
-
+    LinearCombination<dim> row;
+    CoarseValues<dim> coarse_values;
+    std::size_t most_auxiliary = 0;
+    std::vector<std::pair<unsigned int, unsigned int>> not_copied;
+    std::vector<bool> on_interface(size(0), false);
     for (unsigned int p = 0; p < grid.n_owned_patches(); ++p)
       {
         const Patch<dim> &patch = grid.patch(p);
-        for (auto &list : singles)
-          list.clear();
-        for (auto &list : combos)
-          list.clear();
+        not_copied.clear();
         for (unsigned int direction = 0; direction < n_directions<dim>(); ++direction)
           {
             if (direction == own_direction)
@@ -144,15 +143,26 @@ namespace mitre::grid
 
             const unsigned int q = grid.neighbor_patch(p, offset);
             if (q < grid.n_owned_patches())
-              {
-                blocks.push_back({q, static_cast<unsigned short int>(direction)});
-                continue;
-              }
+              blocks.push_back({q, static_cast<unsigned short int>(direction)});
+            else
+              not_copied.emplace_back(direction, q);
+          }
+        block_starts.push_back(blocks.size());
 
-            for (unsigned int c = 0; c < dim; ++c)
+        const bool has_interfaces =
+          extension == BoundaryExtension::quadratic && grid.touches_other_level(p);
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            std::vector<std::pair<unsigned int, Index>> interpolated;
+            if (has_interfaces)
+              interpolated = interface_faces(p, c);
+            for (const auto &face : interpolated)
+              on_interface[face.first] = true;
+
+            const auto ext = extents(c);
+            for (const auto &[direction, q] : not_copied)
               {
                 const BlockShape &shape = shapes[direction][c];
-                const auto ext          = extents(c);
                 // first entry of the block, relative to the patch's own entries
                 Index start;
                 std::size_t rest = shape.to;
@@ -177,111 +187,89 @@ namespace mitre::grid
                                        static_cast<int>(ijk[d]);
                           }
                         if (q != numbers::invalid_unsigned_int)
-                          singles[c].emplace_back(
-                            to,
-                            grid.patch(q).global_id * space.n_dofs_per_patch() +
-                              c * space.n_dofs_per_component() + from);
-                        else
                           {
-                            LinearCombination<dim> row;
-                            const bool found = space.combination(
-                              patch.level, c, index, extension, true, row);
+                            single_to.push_back(to);
+                            single_from_global.push_back(
+                              grid.patch(q).global_id * space.n_dofs_per_patch() +
+                              c * space.n_dofs_per_component() + from);
+                          }
+                        else if (!on_interface[to])
+                          {
+                            row.clear();
+                            const bool found = space.combination(patch.level,
+                                                                 c,
+                                                                 index,
+                                                                 extension,
+                                                                 true,
+                                                                 row,
+                                                                 &coarse_values);
                             AssertThrow(found, ExcInternalError());
-                            combos[c].emplace_back(to, std::move(row));
+                            rows.append(to, row);
                           }
                       }
               }
-          }
-        if (extension == BoundaryExtension::quadratic)
-          add_interface_rows(p, combos);
-
-        block_starts.push_back(blocks.size());
-        for (unsigned int c = 0; c < dim; ++c)
-          {
-            for (const auto &[to, from] : singles[c])
+            for (const auto &[to, index] : interpolated)
               {
-                single_to.push_back(to);
-                single_from_global.push_back(from);
+                row.clear();
+                const bool found = space.interface_value(
+                  patch.level, c, index, extension, row, &coarse_values);
+                AssertThrow(found, ExcInternalError());
+                rows.append(to, row);
+                on_interface[to] = false;
               }
             single_starts.push_back(single_to.size());
-            for (auto &[to, row] : combos[c])
-              rows.append(to, std::move(row));
             row_starts.push_back(rows.n_rows());
+            for (LinearCombination<dim> value : coarse_values.values())
+              auxiliary_rows.append(0, value);
+            auxiliary_starts.push_back(auxiliary_rows.n_rows());
+            most_auxiliary = std::max(most_auxiliary, coarse_values.values().size());
+            coarse_values.clear();
           }
       }
+    auxiliary.resize(most_auxiliary);
   }
 
 
   template <int dim>
-  void VelocityHalo<dim>::add_interface_rows(
-    const unsigned int p,
-    std::vector<std::vector<std::pair<unsigned int, LinearCombination<dim>>>> &result)
-    const
+  std::vector<std::pair<unsigned int, typename VelocityHalo<dim>::Index>>
+  VelocityHalo<dim>::interface_faces(const unsigned int p, const unsigned int c) const
   {
     const PatchGrid<dim> &grid = space.grid();
     const Patch<dim> &patch    = grid.patch(p);
     const int size             = n;
-
-    // whether a leaf of this level has the cell, and whether only a coarser one has it
-    const auto find = [&](Index cell) {
-      Index finer;
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          const int cells = grid.n_patches(patch.level, d) * size;
-          if ((cell[d] < 0 || cell[d] >= cells) && !grid.periodic()[d])
-            return std::make_pair(false, false);
-          cell[d]  = (cell[d] + cells) % cells;
-          finer[d] = 2 * cell[d] / size;
-          cell[d] /= size;
-        }
-      const bool same = grid.find(patch.level, cell) != numbers::invalid_unsigned_int;
-      return std::make_pair(same,
-                            !same && grid.find(patch.level + 1, finer) ==
-                                       numbers::invalid_unsigned_int);
-    };
+    const auto ext             = extents(c);
+    std::vector<std::pair<unsigned int, Index>> result;
 
     // the outermost planes of the patch, and what lies beside them
-    for (unsigned int side = 0; side < 2 * dim; ++side)
-      {
-        const unsigned int c = side / 2;
-        const int plane = (side % 2 == 0 ? 0 : size), width = g;
-        const auto ext = extents(c);
-        for (unsigned int i = 0; i < Utilities::fixed_power<dim - 1>(n + 2 * g); ++i)
-          {
-            unsigned int to = 0, to_stride = 1, rest = i, n_outside = 0;
-            Index index;
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                int own = plane;
-                if (d != c)
-                  {
-                    own = static_cast<int>(rest % (n + 2 * g)) - width;
-                    rest /= n + 2 * g;
-                    n_outside += (own < 0 || own >= size ? 1 : 0);
-                  }
-                to += (own + width) * to_stride;
-                to_stride *= ext[d];
-                index[d] = patch.index[d] * size + own;
-              }
-            if (n_outside > (halo_shape == HaloShape::star ? 1 : dim))
-              continue;
-            Index lower = index;
-            lower[c] -= 1;
-            const auto below = find(lower), above = find(index);
-            if (!(below.first && above.second) && !(below.second && above.first))
-              continue;
-            LinearCombination<dim> row;
-            const bool found =
-              space.interface_value(patch.level, c, index, extension, row);
-            AssertThrow(found, ExcInternalError());
-            const auto same = [to](const auto &entry) { return entry.first == to; };
-            const auto old  = std::find_if(result[c].begin(), result[c].end(), same);
-            if (old != result[c].end())
-              old->second = std::move(row);
-            else
-              result[c].emplace_back(to, std::move(row));
-          }
-      }
+    for (const int plane : {0, size})
+      for (unsigned int i = 0; i < Utilities::fixed_power<dim - 1>(n + 2 * g); ++i)
+        {
+          unsigned int to = 0, to_stride = 1, rest = i, n_outside = 0;
+          Index index;
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              int own = plane;
+              if (d != c)
+                {
+                  own = static_cast<int>(rest % (n + 2 * g)) - static_cast<int>(g);
+                  rest /= n + 2 * g;
+                  n_outside += (own < 0 || own >= size ? 1 : 0);
+                }
+              to += (own + static_cast<int>(g)) * to_stride;
+              to_stride *= ext[d];
+              index[d] = patch.index[d] * size + own;
+            }
+          if (n_outside > (halo_shape == HaloShape::star ? 1 : dim))
+            continue;
+          Index lower = index;
+          lower[c] -= 1;
+          const Neighbor below = grid.leaf_at(patch.level, lower),
+                         above = grid.leaf_at(patch.level, index);
+          if ((below == Neighbor::same && above == Neighbor::coarser) ||
+              (below == Neighbor::coarser && above == Neighbor::same))
+            result.emplace_back(to, index);
+        }
+    return result;
   }
 
 
@@ -289,7 +277,8 @@ namespace mitre::grid
   void VelocityHalo<dim>::add_ghosts(std::vector<types::global_dof_index> &ghosts) const
   {
     ghosts.insert(ghosts.end(), single_from_global.begin(), single_from_global.end());
-    rows.collect_indices(ghosts);
+    rows.collect_ghosts(space.owned_range(), ghosts);
+    auxiliary_rows.collect_ghosts(space.owned_range(), ghosts);
   }
 
 
@@ -304,6 +293,7 @@ namespace mitre::grid
     single_from_global.clear();
     single_from_global.shrink_to_fit();
     rows.localize(*partitioner);
+    auxiliary_rows.localize(*partitioner);
   }
 
 
@@ -339,6 +329,7 @@ namespace mitre::grid
     const std::function<double(const BoundaryTerm<dim> &)> &prescribed)
   {
     rows.set_boundary_values(prescribed);
+    auxiliary_rows.set_boundary_values(prescribed);
   }
 
 
@@ -384,8 +375,13 @@ namespace mitre::grid
     const std::size_t pc = static_cast<std::size_t>(p) * dim + c;
     for (std::size_t i = single_starts[pc]; i < single_starts[pc + 1]; ++i)
       padded[single_to[i]] = values[single_from[i]];
+    const unsigned int first = auxiliary_starts[pc];
+    for (unsigned int row = first; row < auxiliary_starts[pc + 1]; ++row)
+      auxiliary[row - first] =
+        auxiliary_rows.apply(row, values) +
+        (with_boundary_values ? auxiliary_rows.boundary_value(row) : 0.);
     for (unsigned int row = row_starts[pc]; row < row_starts[pc + 1]; ++row)
-      padded[rows.destination(row)] = rows.apply(row, values);
+      padded[rows.destination(row)] = rows.apply(row, values, auxiliary.data());
     if (with_boundary_values)
       for (unsigned int row = row_starts[pc]; row < row_starts[pc + 1]; ++row)
         padded[rows.destination(row)] += rows.boundary_value(row);
@@ -421,9 +417,15 @@ namespace mitre::grid
     const std::size_t pc = static_cast<std::size_t>(p) * dim + c;
     for (std::size_t i = single_starts[pc]; i < single_starts[pc + 1]; ++i)
       values[single_from[i]] += padded[single_to[i]];
+    const unsigned int first = auxiliary_starts[pc], last = auxiliary_starts[pc + 1];
+    std::fill_n(auxiliary.begin(), last - first, 0.);
     for (unsigned int row = row_starts[pc]; row < row_starts[pc + 1]; ++row)
       if (padded[rows.destination(row)] != 0.)
-        rows.apply_transpose(row, padded[rows.destination(row)], values);
+        rows.apply_transpose(
+          row, padded[rows.destination(row)], values, auxiliary.data());
+    for (unsigned int row = first; row < last; ++row)
+      if (auxiliary[row - first] != 0.)
+        auxiliary_rows.apply_transpose(row, auxiliary[row - first], values);
   }
 
 
@@ -446,8 +448,9 @@ namespace mitre::grid
   template <int dim>
   std::size_t VelocityHalo<dim>::memory_consumption() const
   {
-    return rows.memory_consumption() + single_to.size() * 8 + blocks.size() * 8 +
-           imported.memory_consumption() + accumulator.memory_consumption();
+    return rows.memory_consumption() + auxiliary_rows.memory_consumption() +
+           single_to.size() * 8 + blocks.size() * 8 + imported.memory_consumption() +
+           accumulator.memory_consumption();
   }
 
 

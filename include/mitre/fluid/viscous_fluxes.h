@@ -33,7 +33,7 @@ namespace mitre::fluid
     /// Entries of other ranks that the rows read.
     void add_ghosts(std::vector<dealii::types::global_dof_index> &ghosts) const
     {
-      rows.collect_indices(ghosts);
+      rows.collect_ghosts(space.owned_range(), ghosts);
     }
 
     /// Uses vectors with this partitioner from now on.
@@ -57,18 +57,15 @@ namespace mitre::fluid
 
   private:
     using Index = std::array<int, dim>;
-    using Row   = grid::LinearCombination<dim>;
 
-    /// The leaf that has a cell position of a level.
-    enum class Leaf : unsigned char
+    /// A row being built, space for one of the values in it, and those of coarser leaves
+    /// that rows of the same patch use.
+    struct Row
     {
-      same,
-      finer,
-      coarser,
-      none ///< beyond the box
+      grid::CombinationSum<dim> sum;
+      grid::LinearCombination<dim> value;
+      grid::CoarseValues<dim> coarse_values;
     };
-
-    Leaf leaf_at(const int level, const Index &cell) const;
 
     /// Adds factor times the velocity that a leaf of @p level sees at face @p i.
     void add_value(const int level,

@@ -141,6 +141,17 @@ namespace mitre::grid
     /// numbers::invalid_unsigned_int.
     unsigned int neighbor_patch(const unsigned int p, const Index &offset) const;
 
+    /**
+     * Whose cell position @p cell of @p level (in cells of that level, from the lower
+     * corner of the box) is: a leaf of this level, a finer or a coarser one, or nobody's,
+     * beyond the boundary. Correct within the layer of ghost leaves.
+     */
+    Neighbor leaf_at(const int level, Index cell) const;
+
+    /// Whether a leaf that touches owned patch @p p, if only at a corner, is of another
+    /// level.
+    bool touches_other_level(const unsigned int p) const;
+
     /// The local patch with this level and position; periodic directions wrap.
     unsigned int find(const int level, Index index) const;
 

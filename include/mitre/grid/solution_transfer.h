@@ -41,9 +41,9 @@ namespace mitre::grid
     PatchGrid<dim> &grid;
     const StaggeredSpace<dim> &space;
     const CellHalo<dim> &cells;
-    std::vector<std::unique_ptr<VelocityHalo<dim>>> velocity_halos;
+    VelocityHalo<dim> halo;
     std::vector<const VectorType *> velocities, cell_values;
-    std::vector<VectorType> ghosted_cells;
+    std::vector<VectorType> ghosted_velocities, ghosted_cells;
     unsigned int handle;
   };
 } // namespace mitre::grid

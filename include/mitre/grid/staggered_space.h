@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include <mitre/grid/hash_index.h>
 #include <mitre/grid/patch_grid.h>
 #include <mitre/grid/types.h>
 
@@ -40,15 +41,126 @@ namespace mitre::grid
     double weight;
   };
 
-  /// A sum of weighted unknowns and prescribed boundary values.
+  /// A sum of weighted unknowns, prescribed boundary values, and auxiliary values
+  /// (CoarseValues), if these are in use.
   template <int dim>
   struct LinearCombination
   {
     std::vector<std::pair<dealii::types::global_dof_index, double>> entries;
+    std::vector<std::pair<unsigned int, double>> auxiliary;
     std::vector<BoundaryTerm<dim>> boundary;
 
+    /// Whether an unknown may stand in more than one of the entries.
+    bool repeats = false;
+
     void add(const LinearCombination &other, const double factor);
+
+    /// One entry an unknown, in ascending order.
     void merge();
+
+    /// Nothing, but the memory is kept.
+    void clear();
+  };
+
+
+  /**
+   * The values of coarser leaves that interpolation to finer ones has used so far, so
+   * that each is sought once. One that is not an unknown itself (but a mean of finer
+   * faces, say, or an extension by a boundary condition) gets a number, under which
+   * combinations refer to it.
+   */
+  template <int dim>
+  class CoarseValues
+  {
+  public:
+    using Index = std::array<int, dim>;
+
+    /// Where the value of a face is found.
+    struct Place
+    {
+      enum Kind : unsigned char
+      {
+        nowhere,
+        unknown,
+        auxiliary
+      } kind;
+      dealii::types::global_dof_index
+        number; ///< of the unknown or of the auxiliary value
+    };
+
+    /// @param compute fills a combination of unknowns and says whether that was possible
+    template <typename Compute>
+    const Place &find(const int level,
+                      const unsigned int c,
+                      const Index &index,
+                      const Compute &compute)
+    {
+      // positions beyond the box are negative, by less than this
+      constexpr int offset = 1024;
+      std::uint64_t key    = level * 3 + c;
+      for (unsigned int d = 0; d < dim; ++d)
+        key = (key << 19) + static_cast<std::uint64_t>(index[d] + offset);
+      const auto [number, is_new] = numbers.insert(key);
+      if (is_new)
+        {
+          number = places.size();
+          places.push_back(locate(compute));
+        }
+      return places[number];
+    }
+
+    /// Auxiliary values as combinations of unknowns.
+    const std::vector<LinearCombination<dim>> &values() const
+    {
+      return auxiliary;
+    }
+
+    /// Forgets everything; numbers start with 0 again.
+    void clear();
+
+  private:
+    template <typename Compute>
+    Place locate(const Compute &compute)
+    {
+      value.clear();
+      if (!compute(value))
+        return {Place::nowhere, 0};
+      if (value.entries.size() == 1 && value.entries[0].second == 1. &&
+          value.boundary.empty())
+        return {Place::unknown, value.entries[0].first};
+      auxiliary.push_back(value);
+      return {Place::auxiliary,
+              static_cast<dealii::types::global_dof_index>(auxiliary.size() - 1)};
+    }
+
+    HashIndex numbers;
+    std::vector<Place> places;
+    std::vector<LinearCombination<dim>> auxiliary;
+    LinearCombination<dim> value;
+  };
+
+
+  /**
+   * Adds up combinations of many terms: an unknown's weight is found by hashing, which is
+   * faster than to sort all terms.
+   */
+  template <int dim>
+  class CombinationSum
+  {
+  public:
+    void add(const LinearCombination<dim> &terms, const double factor);
+
+    /// The same with the auxiliary values that @p terms refers to written out.
+    void add(const LinearCombination<dim> &terms,
+             const double factor,
+             const CoarseValues<dim> &coarse_values);
+
+    /// The sum, with one entry an unknown; starts anew from nothing.
+    void move_to(LinearCombination<dim> &sum);
+
+  private:
+    HashIndex numbers;
+    LinearCombination<dim> total;
   };
 
   /// How values beyond a boundary with given velocity follow from those inside.
@@ -60,18 +172,21 @@ namespace mitre::grid
 
 
   /**
-   * Linear combinations of the entries of a distributed vector, one a destination,
-   * stored as compressed rows.
+   * Linear combinations of the entries of a distributed vector, and of auxiliary values
+   * if there are any, one a destination, stored as compressed rows.
    */
   template <int dim>
   class CombinationTable
   {
   public:
-    /// Adds a row and returns its number.
-    unsigned int append(const unsigned int destination, LinearCombination<dim> &&row);
+    /// Adds a row, which is merged if it has to be, and returns its number.
+    unsigned int append(const unsigned int destination, LinearCombination<dim> &row);
 
-    /// Global numbers of all entries, for the ghost entries of a partitioner.
-    void collect_indices(std::vector<dealii::types::global_dof_index> &indices) const;
+    /// Global numbers of the entries that are not in [begin, end), each once at most: the
+    /// ghost entries that a partitioner must have.
+    void collect_ghosts(const std::pair<dealii::types::global_dof_index,
+                                        dealii::types::global_dof_index> &owned,
+                        std::vector<dealii::types::global_dof_index> &ghosts) const;
 
     /// Replaces global numbers by the local ones of @p partitioner.
     void localize(const dealii::Utilities::MPI::Partitioner &partitioner);
@@ -94,10 +209,30 @@ namespace mitre::grid
       return sum;
     }
 
+    /// The same for rows that may refer to auxiliary values.
+    double
+    apply(const unsigned int row, const double *values, const double *auxiliary) const
+    {
+      double sum = apply(row, values);
+      for (unsigned int k = auxiliary_starts[row]; k < auxiliary_starts[row + 1]; ++k)
+        sum += auxiliary_weights[k] * auxiliary[auxiliary_columns[k]];
+      return sum;
+    }
+
     void apply_transpose(const unsigned int row, const double value, double *values) const
     {
       for (unsigned int k = starts[row]; k < starts[row + 1]; ++k)
         values[columns[k]] += weights[k] * value;
+    }
+
+    void apply_transpose(const unsigned int row,
+                         const double value,
+                         double *values,
+                         double *auxiliary) const
+    {
+      apply_transpose(row, value, values);
+      for (unsigned int k = auxiliary_starts[row]; k < auxiliary_starts[row + 1]; ++k)
+        auxiliary[auxiliary_columns[k]] += auxiliary_weights[k] * value;
     }
 
     /// Calls @p operation(local number, weight) for the entries of a row.
@@ -126,6 +261,12 @@ namespace mitre::grid
     std::vector<dealii::types::global_dof_index> global_columns;
     std::vector<unsigned int> columns;
     std::vector<double> weights;
+
+    std::vector<unsigned int> auxiliary_starts = {0};
+    std::vector<unsigned short int> auxiliary_columns;
+    std::vector<double> auxiliary_weights;
+
+    CombinationSum<dim> sum;
 
     std::vector<std::pair<unsigned int, BoundaryTerm<dim>>> boundary_terms;
     std::vector<double> boundary_values;
@@ -217,14 +358,16 @@ namespace mitre::grid
      * Writes component @p c at the grid position @p index of @p level, which may lie
      * outside of the box or where leaves are finer, as a combination of entries.
      * Where leaves are coarser it is interpolated from them (quadratically), unless
-     * @p interpolate is false. Returns whether that was possible.
+     * @p interpolate is false. Returns whether that was possible. With @p coarse_values,
+     * the result may refer to auxiliary values.
      */
     bool combination(const int level,
                      const unsigned int c,
                      Index index,
                      const BoundaryExtension extension,
                      const bool interpolate,
-                     LinearCombination<dim> &result) const;
+                     LinearCombination<dim> &result,
+                     CoarseValues<dim> *coarse_values = nullptr) const;
 
     /**
      * The velocity at a face of a leaf of @p level on a coarse-fine interface,
@@ -236,10 +379,12 @@ namespace mitre::grid
                          const unsigned int c,
                          const Index &index,
                          const BoundaryExtension extension,
-                         LinearCombination<dim> &result) const
+                         LinearCombination<dim> &result,
+                         CoarseValues<dim> *coarse_values = nullptr) const
     {
       Index coarse;
-      return interpolate_from_coarser(level, c, index, extension, 0, coarse, result);
+      return interpolate_from_coarser(
+        level, c, index, extension, 0, coarse, result, coarse_values);
     }
 
     /// Gives @p vector the owned entries and the ghosts that the solver needs.
@@ -251,6 +396,10 @@ namespace mitre::grid
     }
 
     dealii::IndexSet owned_entries() const;
+
+    /// First global number of the owned entries, and the one after the last.
+    std::pair<dealii::types::global_dof_index, dealii::types::global_dof_index>
+    owned_range() const;
 
     /// Sets all copies from their masters. Collective.
     void synchronize(VectorType &u) const;
@@ -342,13 +491,34 @@ namespace mitre::grid
                        const Index &index,
                        LinearCombination<dim> &result) const;
 
+    /// Adds @p weight times the face of @p level, which is on coarser leaves or beside
+    /// them. Returns whether that was possible.
+    bool add_coarse_value(const int level,
+                          const unsigned int c,
+                          const Index &index,
+                          const BoundaryExtension extension,
+                          const double weight,
+                          LinearCombination<dim> &result,
+                          CoarseValues<dim> *coarse_values) const;
+
+    /// The same for all points of a tensor product of lines of up to three points.
+    bool add_coarse_values(
+      const int level,
+      const unsigned int c,
+      const Index &first,
+      const std::array<std::pair<unsigned int, std::array<double, 3>>, dim> &lines,
+      const BoundaryExtension extension,
+      LinearCombination<dim> &result,
+      CoarseValues<dim> *coarse_values) const;
+
     bool interpolate_from_coarser(const int level,
                                   const unsigned int c,
                                   const Index &index,
                                   const BoundaryExtension extension,
                                   const unsigned int d,
                                   Index &coarse,
-                                  LinearCombination<dim> &result) const;
+                                  LinearCombination<dim> &result,
+                                  CoarseValues<dim> *coarse_values) const;
 
     void build_copies();
     void build_interfaces();

@@ -112,11 +112,10 @@ namespace mitre::grid
   private:
     void build();
 
-    /// Rows for the faces of patch @p p on coarse-fine interfaces.
-    void add_interface_rows(
-      const unsigned int p,
-      std::vector<std::vector<std::pair<unsigned int, LinearCombination<dim>>>> &result)
-      const;
+    /// The faces of component @p c of patch @p p, with its halo, on interfaces to coarser
+    /// leaves: entry of the padded array, and index.
+    std::vector<std::pair<unsigned int, Index>>
+    interface_faces(const unsigned int p, const unsigned int c) const;
 
     const StaggeredSpace<dim> &space;
     const unsigned int n, g;
@@ -152,6 +151,13 @@ namespace mitre::grid
     std::vector<unsigned int> single_from;
     std::vector<unsigned int> row_starts;
     CombinationTable<dim> rows;
+
+    /// Per patch and component: values of coarser leaves that are not unknowns
+    /// themselves, of which the rows make use, and space for those of one patch and
+    /// component.
+    std::vector<unsigned int> auxiliary_starts;
+    CombinationTable<dim> auxiliary_rows;
+    mutable std::vector<double> auxiliary;
 
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
     VectorType imported, accumulator;
