@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <mitre/base/exceptions.h>
 #include <mitre/fluid/navier_stokes.h>
@@ -355,17 +356,28 @@ namespace mitre::fluid
       rebuilt = true;
       transfer->finish(*velocity_space, {&u, &advection_old}, {&p});
       transfer.reset();
+      // what the transfer has added to the divergence has no mean over these blocks
+      set_fixed_faces(u, time);
+      stokes_operators->equalize_divergence_in_blocks(u);
     };
-    const double tolerance = 1e-10;
+    const auto size_of_divergence = [this]() {
+      stokes_operators->apply_divergence(p_new, u);
+      return p_new.l2_norm();
+    };
+    const double divergence_before = size_of_divergence();
     patch_grid.adapt(wanted_level, before, after);
     // also if the forest's balance has made it what it was: the spaces are new
     if (!rebuilt)
       return false;
-    set_fixed_faces(u, time);
-    const double speed    = u.linfty_norm();
-    projection_iterations = speed > 0. ? stokes_solver->project(u, tolerance * speed) : 0;
-    u_old                 = u;
-    p_old                 = p;
+    // given velocities may have another mean on new faces
+    double width = std::numeric_limits<double>::max();
+    for (unsigned int d = 0; d < dim; ++d)
+      width = std::min(width, patch_grid.cell_width(patch_grid.maximum_level(), d));
+    const double tolerance = std::max(1e-10 * u.linfty_norm() / width, divergence_before);
+    projection_iterations =
+      size_of_divergence() > tolerance ? stokes_solver->project(u, tolerance) : 0;
+    u_old = u;
+    p_old = p;
     return true;
   }
 

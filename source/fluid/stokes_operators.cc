@@ -342,6 +342,76 @@ namespace mitre::fluid
 
 
   template <int dim>
+  void StokesOperators<dim>::equalize_divergence_in_blocks(VectorType &u) const
+  {
+    constexpr unsigned int n_cells = 1u << dim;
+    std::array<std::array<unsigned int, dim>, dim> stride;
+    for (unsigned int c = 0; c < dim; ++c)
+      for (unsigned int d = 0; d < dim; ++d)
+        stride[c][d] = space.stride(c, d);
+    for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
+      {
+        const auto &patch = patch_grid.patch(p);
+        for (unsigned int block = 0; block < Utilities::fixed_power<dim>(n / 2); ++block)
+          {
+            // the lowest faces of the block
+            std::array<double *, dim> face;
+            unsigned int rest = block;
+            for (unsigned int c = 0; c < dim; ++c)
+              face[c] = u.begin() + space.first_dof(p, c);
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                for (unsigned int c = 0; c < dim; ++c)
+                  face[c] += 2 * (rest % (n / 2)) * stride[c][d];
+                rest /= n / 2;
+              }
+            const auto value = [&](const unsigned int c,
+                                   const unsigned int cell,
+                                   const unsigned int upper) -> double & {
+              unsigned int at = upper * stride[c][c];
+              for (unsigned int d = 0; d < dim; ++d)
+                at += ((cell >> d) & 1) * stride[c][d];
+              return face[c][at];
+            };
+
+            // The potential phi whose differences across the faces between the cells of
+            // the block have this divergence, but for its mean. Products of signs are the
+            // eigenvectors of this Laplacian, 2^dim times the inverse of the transform
+            // is the transform.
+            std::array<double, n_cells> phi{};
+            for (unsigned int cell = 0; cell < n_cells; ++cell)
+              for (unsigned int c = 0; c < dim; ++c)
+                phi[cell] += (value(c, cell, 1) - value(c, cell, 0)) / patch.h[c];
+            const auto transform = [&phi]() {
+              for (unsigned int bit = 1; bit < n_cells; bit *= 2)
+                for (unsigned int i = 0; i < n_cells; ++i)
+                  if ((i & bit) == 0)
+                    {
+                      const double a = phi[i], b = phi[i | bit];
+                      phi[i]       = a + b;
+                      phi[i | bit] = a - b;
+                    }
+            };
+            transform();
+            phi[0] = 0.;
+            for (unsigned int i = 1; i < n_cells; ++i)
+              {
+                double eigenvalue = 0.;
+                for (unsigned int d = 0; d < dim; ++d)
+                  eigenvalue += ((i >> d) & 1) * 2. / (patch.h[d] * patch.h[d]);
+                phi[i] /= -eigenvalue * n_cells;
+              }
+            transform();
+            for (unsigned int c = 0; c < dim; ++c)
+              for (unsigned int cell = 0; cell < n_cells; ++cell)
+                if (((cell >> c) & 1) == 0)
+                  value(c, cell, 1) -= (phi[cell | (1u << c)] - phi[cell]) / patch.h[c];
+          }
+      }
+  }
+
+
+  template <int dim>
   double StokesOperators<dim>::max_divergence(const VectorType &u) const
   {
     VectorType divergence;

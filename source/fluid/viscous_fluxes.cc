@@ -22,93 +22,114 @@ namespace mitre::fluid
           continue;
         row.coarse_values.clear();
         const auto &patch = patch_grid.patch(p);
-        double volume     = 1.;
-        for (unsigned int d = 0; d < dim; ++d)
-          volume *= patch.h[d];
         for (unsigned int c = 0; c < dim; ++c)
-          for (unsigned int entry = 0; entry < space.n_dofs_per_component(); ++entry)
-            {
-              Index i;
-              unsigned int rest = entry;
-              bool outermost    = false;
-              for (unsigned int d = 0; d < dim; ++d)
-                {
-                  const int extent = space.extent(c, d);
-                  const int own    = rest % extent;
-                  rest /= extent;
-                  outermost = outermost || own == 0 || own == extent - 1;
-                  i[d]      = patch.index[d] * n + own;
-                }
-              if (!outermost)
-                continue;
-              // copies follow their masters
-              const int plane           = i[c] - patch.index[c] * n;
-              const Neighbor below_kind = patch_grid.neighbor(p, 2 * c),
-                             above_kind = patch_grid.neighbor(p, 2 * c + 1);
-              if ((plane == 0 && below_kind == Neighbor::coarser) ||
-                  (plane == n &&
-                   (above_kind == Neighbor::coarser || above_kind == Neighbor::same)))
-                continue;
-              if (!touches_finer(patch.level, c, i))
-                continue;
-
-              double control_volume = 0.;
-              for (unsigned int half = 0; half < 2; ++half)
-                {
-                  Index cell = i;
-                  cell[c] -= (half == 0 ? 1 : 0);
-                  const Neighbor leaf = patch_grid.leaf_at(patch.level, cell);
-                  if (leaf == Neighbor::boundary)
-                    continue;
-                  control_volume += (leaf == Neighbor::finer ? 0.25 : 0.5) * volume;
-                }
-              for (unsigned int half = 0; half < 2; ++half)
-                {
-                  Index cell = i;
-                  cell[c] -= (half == 0 ? 1 : 0);
-                  const Neighbor leaf = patch_grid.leaf_at(patch.level, cell);
-                  if (leaf == Neighbor::same)
-                    add_half_balance(patch.level, c, i, half, 1. / control_volume, row);
-                  else if (leaf == Neighbor::finer)
-                    for (unsigned int k = 0; k < (1u << (dim - 1)); ++k)
+          {
+            unsigned int entry = 0;
+            std::array<int, 3> own, extent{{1, 1, 1}};
+            for (unsigned int d = 0; d < dim; ++d)
+              extent[d] = space.extent(c, d);
+            for (own[2] = 0; own[2] < extent[2]; ++own[2])
+              for (own[1] = 0; own[1] < extent[1]; ++own[1])
+                for (own[0] = 0; own[0] < extent[0]; ++own[0], ++entry)
+                  {
+                    Index i;
+                    bool outermost = false;
+                    for (unsigned int d = 0; d < dim; ++d)
                       {
-                        Index fine;
-                        unsigned int bit = 0;
-                        for (unsigned int d = 0; d < dim; ++d)
-                          fine[d] =
-                            2 * i[d] + (d == c ? 0 : static_cast<int>((k >> bit++) & 1));
-                        add_half_balance(
-                          patch.level + 1, c, fine, half, 1. / control_volume, row);
+                        outermost = outermost || own[d] == 0 || own[d] == extent[d] - 1;
+                        i[d]      = patch.index[d] * n + own[d];
                       }
-                }
+                    if (outermost && is_corrected(p, c, i))
+                      {
+                        make_row(p, c, i, row);
+                        rows.append(space.first_dof(p, c) + entry, row.value);
+                      }
+                  }
+          }
+      }
+  }
 
-              // less the second differences
-              double center = 0.;
+
+  template <int dim>
+  bool ViscousFluxes<dim>::is_corrected(const unsigned int p,
+                                        const unsigned int c,
+                                        const Index &i) const
+  {
+    const int n       = patch_grid.n_cells_per_side();
+    const auto &patch = patch_grid.patch(p);
+    // copies follow their masters
+    const int plane           = i[c] - patch.index[c] * n;
+    const Neighbor below_kind = patch_grid.neighbor(p, 2 * c),
+                   above_kind = patch_grid.neighbor(p, 2 * c + 1);
+    if ((plane == 0 && below_kind == Neighbor::coarser) ||
+        (plane == n && (above_kind == Neighbor::coarser || above_kind == Neighbor::same)))
+      return false;
+    return touches_finer(p, c, i);
+  }
+
+
+  template <int dim>
+  void ViscousFluxes<dim>::make_row(const unsigned int p,
+                                    const unsigned int c,
+                                    const Index &i,
+                                    Row &row) const
+  {
+    const auto &patch = patch_grid.patch(p);
+    double volume     = 1.;
+    for (unsigned int d = 0; d < dim; ++d)
+      volume *= patch.h[d];
+    double control_volume = 0.;
+    for (unsigned int half = 0; half < 2; ++half)
+      {
+        Index cell = i;
+        cell[c] -= (half == 0 ? 1 : 0);
+        const Neighbor leaf = patch_grid.leaf_at(patch.level, cell);
+        if (leaf == Neighbor::boundary)
+          continue;
+        control_volume += (leaf == Neighbor::finer ? 0.25 : 0.5) * volume;
+      }
+    for (unsigned int half = 0; half < 2; ++half)
+      {
+        Index cell = i;
+        cell[c] -= (half == 0 ? 1 : 0);
+        const Neighbor leaf = patch_grid.leaf_at(patch.level, cell);
+        if (leaf == Neighbor::same)
+          add_half_balance(patch.level, c, i, half, 1. / control_volume, row);
+        else if (leaf == Neighbor::finer)
+          for (unsigned int k = 0; k < (1u << (dim - 1)); ++k)
+            {
+              Index fine;
+              unsigned int bit = 0;
               for (unsigned int d = 0; d < dim; ++d)
-                {
-                  const double w = 1. / (patch.h[d] * patch.h[d]);
-                  center += 2. * w;
-                  for (const int sign : {-1, 1})
-                    {
-                      Index beyond = i;
-                      beyond[d] += sign;
-                      row.value.clear();
-                      const bool found = space.combination(patch.level,
-                                                           c,
-                                                           beyond,
-                                                           BoundaryExtension::quadratic,
-                                                           true,
-                                                           row.value,
-                                                           &row.coarse_values);
-                      AssertThrow(found, ExcInternalError());
-                      row.sum.add(row.value, -w, row.coarse_values);
-                    }
-                }
-              add_value(patch.level, c, i, center, row);
-              row.sum.move_to(row.value);
-              rows.append(space.first_dof(p, c) + entry, row.value);
+                fine[d] = 2 * i[d] + (d == c ? 0 : static_cast<int>((k >> bit++) & 1));
+              add_half_balance(patch.level + 1, c, fine, half, 1. / control_volume, row);
             }
       }
+
+    // less the second differences
+    double center = 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double w = 1. / (patch.h[d] * patch.h[d]);
+        center += 2. * w;
+        for (const int sign : {-1, 1})
+          {
+            Index beyond = i;
+            beyond[d] += sign;
+            row.value.clear();
+            const bool found = space.combination(patch.level,
+                                                 c,
+                                                 beyond,
+                                                 BoundaryExtension::quadratic,
+                                                 true,
+                                                 row.value,
+                                                 &row.coarse_values);
+            AssertThrow(found, ExcInternalError());
+            row.sum.add(row.value, -w, row.coarse_values);
+          }
+      }
+    add_value(patch.level, c, i, center, row);
+    row.sum.move_to(row.value);
   }
 
 
@@ -119,11 +140,16 @@ namespace mitre::fluid
                                      const double factor,
                                      Row &row) const
   {
-    Index below = i;
-    below[c] -= 1;
-    const Neighbor a = patch_grid.leaf_at(level, below), b = patch_grid.leaf_at(level, i);
-    const bool on_interface = (a == Neighbor::same && b == Neighbor::coarser) ||
-                              (a == Neighbor::coarser && b == Neighbor::same);
+    bool on_interface = false;
+    if (i[c] % static_cast<int>(patch_grid.n_cells_per_side()) == 0)
+      {
+        Index below = i;
+        below[c] -= 1;
+        const Neighbor a = patch_grid.leaf_at(level, below),
+                       b = patch_grid.leaf_at(level, i);
+        on_interface     = (a == Neighbor::same && b == Neighbor::coarser) ||
+                       (a == Neighbor::coarser && b == Neighbor::same);
+      }
     row.value.clear();
     const bool found =
       on_interface
@@ -214,15 +240,27 @@ namespace mitre::fluid
 
 
   template <int dim>
-  bool ViscousFluxes<dim>::touches_finer(const int level,
+  bool ViscousFluxes<dim>::touches_finer(const unsigned int p,
                                          const unsigned int c,
                                          const Index &i) const
   {
+    const auto &patch  = patch_grid.patch(p);
+    const auto leaf_at = [&](const Index &cell) {
+      bool inside = true;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const int own =
+            cell[d] - patch.index[d] * static_cast<int>(patch_grid.n_cells_per_side());
+          inside =
+            inside && own >= 0 && own < static_cast<int>(patch_grid.n_cells_per_side());
+        }
+      return inside ? Neighbor::same : patch_grid.leaf_at(patch.level, cell);
+    };
     for (unsigned int half = 0; half < 2; ++half)
       {
         Index cell = i;
         cell[c] -= (half == 0 ? 1 : 0);
-        const Neighbor leaf = patch_grid.leaf_at(level, cell);
+        const Neighbor leaf = leaf_at(cell);
         if (leaf == Neighbor::finer)
           return true;
         if (leaf != Neighbor::same)
@@ -233,7 +271,7 @@ namespace mitre::fluid
               {
                 Index beyond = cell;
                 beyond[d] += step;
-                if (patch_grid.leaf_at(level, beyond) == Neighbor::finer)
+                if (leaf_at(beyond) == Neighbor::finer)
                   return true;
               }
       }

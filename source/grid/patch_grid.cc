@@ -129,11 +129,26 @@ namespace mitre::grid
   }
 
 
+  namespace
+  {
+    /// To the base of two; @p n is a power of it.
+    unsigned int logarithm(const unsigned int n)
+    {
+      unsigned int log = 0;
+      while ((1u << log) < n)
+        ++log;
+      AssertThrow((1u << log) == n, ExcInternalError());
+      return log;
+    }
+  } // namespace
+
+
   template <int dim>
   PatchGrid<dim>::PatchGrid(MPI_Comm communicator,
                             const PatchGridParameters<dim> &parameters)
     : parameters(parameters)
     , n(parameters.cells_per_side)
+    , log_n(logarithm(n))
     , bounding_box(make_box(parameters.lower, parameters.upper))
     , tria(communicator)
   {
@@ -175,6 +190,7 @@ namespace mitre::grid
       return changed;
     }())
     , n(cells_per_side)
+    , log_n(logarithm(n))
     , bounding_box(forest.bounding_box)
     , tria(forest.communicator())
     , owned_patches(forest.owned_patches)
@@ -272,13 +288,13 @@ namespace mitre::grid
               return Neighbor::boundary;
             cell[d] = (cell[d] + cells) % cells;
           }
-        finer[d] = 2 * cell[d] / size;
-        cell[d] /= size;
+        finer[d] = 2 * cell[d];
       }
-    if (find(level, cell) != numbers::invalid_unsigned_int)
+    if (find(level, position_of_patch(cell)) != numbers::invalid_unsigned_int)
       return Neighbor::same;
-    return find(level + 1, finer) != numbers::invalid_unsigned_int ? Neighbor::finer
-                                                                   : Neighbor::coarser;
+    return find(level + 1, position_of_patch(finer)) != numbers::invalid_unsigned_int
+             ? Neighbor::finer
+             : Neighbor::coarser;
   }
 
 

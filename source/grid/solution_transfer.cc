@@ -87,10 +87,11 @@ namespace mitre::grid
     for (const VectorType *u : velocities)
       ghosted_velocities.push_back(halo.import(*u));
     for (const VectorType *p : cell_values)
-      {
-        ghosted_cells.push_back(*p);
-        ghosted_cells.back().update_ghost_values();
-      }
+      ghosted_cells.push_back(*p);
+    // not earlier: copies of vectors have no ghost values
+    for (auto *vectors : {&ghosted_velocities, &ghosted_cells})
+      for (VectorType &v : *vectors)
+        v.update_ghost_values();
     handle = grid.triangulation().register_data_attach(
       [this](const CellIterator &cell, const CellStatus status) {
         return pack(cell, status);

@@ -249,19 +249,16 @@ namespace mitre::grid
     };
 
     // the patch above the face, then the one below
-    Index where, first;
+    Index where = patch_grid.position_of_patch(index), first;
     for (unsigned int d = 0; d < dim; ++d)
-      {
-        where[d] = index[d] / in;
-        first[d] = where[d] * in;
-      }
+      first[d] = where[d] * in;
     if (index[c] < faces)
       {
         const unsigned int p = patch_grid.find(level, where);
         if (p != numbers::invalid_unsigned_int)
           return number(p, first);
       }
-    if (index[c] % in == 0 && (index[c] > 0 || patch_grid.periodic()[c]))
+    if (index[c] == first[c] && (index[c] > 0 || patch_grid.periodic()[c]))
       {
         where[c] -= 1;
         first[c] -= in;

@@ -74,6 +74,13 @@ namespace mitre::fluid
                       const double b,
                       const double factor) const;
 
+    /**
+     * Makes the divergence of the 2^dim cells of each block of cells that may be one
+     * coarser cell the same, by the smallest change of the velocities inside of the
+     * blocks: div u = 0 in cells that are refined is inherited by the finer ones.
+     */
+    void equalize_divergence_in_blocks(grid::VectorType &u) const;
+
     /// Largest |div u| over all cells [1/s].
     double max_divergence(const grid::VectorType &u) const;
 

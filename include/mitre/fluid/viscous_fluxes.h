@@ -93,7 +93,14 @@ namespace mitre::fluid
                           const double factor,
                           Row &row) const;
 
-    bool touches_finer(const int level, const unsigned int c, const Index &i) const;
+    bool touches_finer(const unsigned int p, const unsigned int c, const Index &i) const;
+
+    /// Whether a face of patch @p p has a row.
+    bool is_corrected(const unsigned int p, const unsigned int c, const Index &i) const;
+
+    /// Leaves the row of a face of patch @p p in @p row .value.
+    void
+    make_row(const unsigned int p, const unsigned int c, const Index &i, Row &row) const;
 
     const grid::StaggeredSpace<dim> &space;
     const grid::PatchGrid<dim> &patch_grid;

@@ -141,6 +141,16 @@ namespace mitre::grid
     /// numbers::invalid_unsigned_int.
     unsigned int neighbor_patch(const unsigned int p, const Index &offset) const;
 
+    /// The position among patches of a level of that which has a cell position of the
+    /// level, which must not be negative. (Divisions would be a large part of the time
+    /// that a change of the grid takes.)
+    Index position_of_patch(Index cell) const
+    {
+      for (int &i : cell)
+        i >>= log_n;
+      return cell;
+    }
+
     /**
      * Whose cell position @p cell of @p level (in cells of that level, from the lower
      * corner of the box) is: a leaf of this level, a finer or a coarser one, or nobody's,
@@ -287,6 +297,7 @@ namespace mitre::grid
 
     const PatchGridParameters<dim> parameters;
     const unsigned int n;
+    const unsigned int log_n; ///< to the base of two
     const dealii::BoundingBox<dim> bounding_box;
     dealii::parallel::distributed::Triangulation<dim> tria;
 
