@@ -56,7 +56,6 @@ namespace mitre::grid
   template <int dim>
   void CoarseValues<dim>::clear()
   {
-    numbers.clear();
     places.clear();
     auxiliary.clear();
   }

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include <mitre/grid/hash_index.h>
+#include <mitre/grid/hash_map.h>
 #include <mitre/grid/patch_grid.h>
 #include <mitre/grid/types.h>
 
@@ -100,13 +100,10 @@ namespace mitre::grid
       std::uint64_t key    = level * 3 + c;
       for (unsigned int d = 0; d < dim; ++d)
         key = (key << 19) + static_cast<std::uint64_t>(index[d] + offset);
-      const auto [number, is_new] = numbers.insert(key);
+      const auto [place, is_new] = places.insert(key);
       if (is_new)
-        {
-          number = places.size();
-          places.push_back(locate(compute));
-        }
-      return places[number];
+        place = locate(compute);
+      return place;
     }
 
     /// Auxiliary values as combinations of unknowns.
@@ -133,8 +130,7 @@ namespace mitre::grid
               static_cast<dealii::types::global_dof_index>(auxiliary.size() - 1)};
     }
 
-    HashIndex numbers;
-    std::vector<Place> places;
+    HashMap<Place> places;
     std::vector<LinearCombination<dim>> auxiliary;
     LinearCombination<dim> value;
   };
@@ -159,7 +155,7 @@ namespace mitre::grid
     void move_to(LinearCombination<dim> &sum);
 
   private:
-    HashIndex numbers;
+    HashMap<unsigned int> numbers;
     LinearCombination<dim> total;
   };
 
