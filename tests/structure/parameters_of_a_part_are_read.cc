@@ -38,6 +38,7 @@ main()
                            "  subsection Material anterior\n"
                            "    set Material id = 1, 3\n"
                            "    set Law = transversely isotropic\n"
+                           "    set Stabilisation Poisson ratio = -1\n"
                            "    subsection transversely isotropic\n"
                            "      set C1 = 100\n"
                            "      set a_f = 200\n"
