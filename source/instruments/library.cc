@@ -6,6 +6,7 @@
 #include <mitre/instruments/part_volume.h>
 #include <mitre/instruments/pressure_point.h>
 #include <mitre/instruments/pressure_station.h>
+#include <mitre/instruments/stress_and_strain.h>
 
 namespace mitre::instruments
 {
@@ -27,6 +28,11 @@ namespace mitre::instruments
       instruments.template add<PartVolume<dim>>(
         "part volume",
         "deformed over reference volume of a part, smallest and largest J");
+      instruments.template add<StressAndStrain<dim>>(
+        "stress and strain",
+        "smallest, mean and largest stress, strain and stretch of fibres, and "
+        "percentiles, "
+        "by material");
       instruments.template add<Energy<dim>>(
         "energy", "kinetic energy of the fluid and strain energy of the parts");
       return instruments;

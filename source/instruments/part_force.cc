@@ -9,7 +9,7 @@ namespace mitre::instruments
     prm.declare_entry("Part",
                       "",
                       dealii::Patterns::Anything(),
-                      "Name of the part, which must have constraints.");
+                      "Name of the part, which must have constraints or loads.");
     prm.declare_entry("Reference force",
                       "0",
                       dealii::Patterns::Double(0.),
@@ -48,15 +48,12 @@ namespace mitre::instruments
   {
     const ObservedPart<dim> &observed = observation.find_part(part, name);
     const structure::Body<dim> &body  = *observed.body;
-    AssertThrow(!body.constraints().empty(),
+    AssertThrow(!body.constraints().empty() || !body.loads().empty(),
                 base::UserError("Instrument " + name + ": part " + part +
-                                " has no constraints, whose forces could be summed."));
-    structure::VectorType F;
-    body.initialize_vector(F);
-    for (const auto &constraint : body.constraints())
-      constraint.constraint->add_force_density(
-        *observed.X, *observed.U, observation.time, F);
-    const dealii::Tensor<1, dim> force = -body.compute_total(F);
+                                " has no constraints or loads, whose forces could be "
+                                "summed."));
+    const dealii::Tensor<1, dim> force =
+      -body.compute_total_external_force(*observed.X, *observed.U, observation.time);
 
     std::vector<double> result;
     for (unsigned int c = 0; c < dim; ++c)

@@ -185,9 +185,11 @@ namespace mitre::io
     {
       const auto found = element_types().find(type);
       if (found == element_types().end())
-        scanner.fail("elements of gmsh's type " + std::to_string(type) +
-                     " are not known; expected are tetrahedra, hexahedra, triangles or "
-                     "quadrilaterals of first order.");
+        scanner.fail(
+          "elements of gmsh's type " + std::to_string(type) +
+          " are not known; expected are tetrahedra, hexahedra, triangles or "
+          "quadrilaterals of first order, or of second order with 10, 27, 6 or "
+          "9 nodes.");
       return found->second;
     }
 
@@ -407,13 +409,26 @@ namespace mitre::io
     }
 
 
-    /// The nodes of a gmsh cell in deal.II's order.
+    /// The nodes of a gmsh cell in deal.II's order: gmsh's number of each.
     template <int dim>
-    void reorder_nodes(const ElementShape shape, unsigned int *nodes)
+    std::vector<unsigned int> node_order(const ElementShape shape,
+                                         const unsigned int degree)
     {
-      if (shape == ElementShape::hypercube)
-        for (unsigned int v = 0; v < (1u << dim); v += 4)
-          std::swap(nodes[v + 2], nodes[v + 3]);
+      if (shape == ElementShape::simplex)
+        {
+          if (degree == 1)
+            return dim == 2 ? std::vector<unsigned int>{0, 1, 2}
+                            : std::vector<unsigned int>{0, 1, 2, 3};
+          return dim == 2 ? std::vector<unsigned int>{0, 1, 2, 3, 4, 5}
+                          : std::vector<unsigned int>{0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
+        }
+      if (degree == 1)
+        return dim == 2 ? std::vector<unsigned int>{0, 1, 3, 2}
+                        : std::vector<unsigned int>{0, 1, 3, 2, 4, 5, 7, 6};
+      return dim == 2 ? std::vector<unsigned int>{0, 1, 3, 2, 7, 5, 4, 6, 8}
+                      : std::vector<unsigned int>{0,  1,  3,  2,  4,  5,  7,  6,  9,
+                                                  11, 8,  13, 17, 18, 16, 19, 10, 12,
+                                                  15, 14, 22, 23, 21, 24, 20, 25, 26};
     }
 
 
@@ -491,11 +506,11 @@ namespace mitre::io
         ++n_of_dimension[type.dimension];
         if (type.dimension != dim)
           continue;
-        if (type.degree != 1)
+        if (type.degree == 0)
           fail("element " + std::to_string(raw.element_tags[i]) + " is a " + type.name +
                "; expected are " +
                (dim == 2 ? "triangles or quadrilaterals" : "tetrahedra or hexahedra") +
-               " of first order.");
+               " of first or second order.");
         if (!chosen.empty() && raw.element_types[i] != raw.element_types[chosen.front()])
           fail("element " + std::to_string(raw.element_tags[i]) + " is a " + type.name +
                ", element " + std::to_string(raw.element_tags[chosen.front()]) + " a " +
@@ -538,17 +553,35 @@ namespace mitre::io
                  " in a two-dimensional mesh; expected is z = 0.");
           mesh.nodes.push_back(x);
         }
+    const std::vector<unsigned int> order = node_order<dim>(type.shape, type.degree);
     for (const unsigned int i : chosen)
       {
-        for (unsigned int a = 0; a < type.n_nodes; ++a)
+        for (const unsigned int a : order)
           mesh.elements.push_back(new_number[raw.element_nodes[raw.first_node[i] + a]]);
-        reorder_nodes<dim>(type.shape,
-                           mesh.elements.data() + mesh.elements.size() - type.n_nodes);
         mesh.material_ids.push_back(raw.material_ids[i]);
         mesh.element_tags.push_back(raw.element_tags[i]);
       }
 
-    // Step 4: fibres.
+    // Step 4: elements of the surface that have a physical id.
+    const unsigned int n_corners =
+      type.shape == ElementShape::simplex ? dim : 1u << (dim - 1);
+    for (unsigned int i = 0; i < raw.element_types.size(); ++i)
+      {
+        const ElementType &side    = element_types().at(raw.element_types[i]);
+        const bool has_our_corners = dim == 2 || side.shape == type.shape;
+        if (side.dimension != dim - 1 || !has_our_corners || raw.material_ids[i] == 0)
+          continue;
+        const unsigned int *nodes = raw.element_nodes.data() + raw.first_node[i];
+        if (std::any_of(nodes, nodes + n_corners, [&](const unsigned int node) {
+              return new_number[node] == unused;
+            }))
+          continue;
+        for (unsigned int k = 0; k < n_corners; ++k)
+          mesh.boundary_elements.push_back(new_number[nodes[k]]);
+        mesh.boundary_ids.push_back(raw.material_ids[i]);
+      }
+
+    // Step 5: fibres.
     const char *names[structure::max_fibre_families] = {"fibre", "fibre 2"};
     for (unsigned int f = 0; f < structure::max_fibre_families; ++f)
       {
@@ -638,6 +671,8 @@ namespace mitre::io
     broadcast(mesh.elements, communicator);
     broadcast(mesh.material_ids, communicator);
     broadcast(mesh.element_tags, communicator);
+    broadcast(mesh.boundary_elements, communicator);
+    broadcast(mesh.boundary_ids, communicator);
     for (std::vector<dealii::Tensor<1, dim>> &family : mesh.fibres)
       {
         std::vector<std::array<double, dim>> directions;

@@ -312,11 +312,22 @@ namespace mitre::io
     }
 
 
-    /// VTK's number of an element's shape and, in VTK's order, its corners.
+    /// VTK's number of an element's shape and, in VTK's order, its nodes.
     template <int dim>
     std::pair<unsigned char, std::vector<unsigned int>>
-    vtk_cell(const structure::ElementShape shape)
+    vtk_cell(const structure::ElementShape shape, const unsigned int degree)
     {
+      using Cell = std::pair<unsigned char, std::vector<unsigned int>>;
+      if (degree == 2)
+        {
+          if (shape == structure::ElementShape::simplex)
+            return dim == 2 ? Cell(22, {0, 1, 2, 3, 4, 5})
+                            : Cell(24, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
+          return dim == 2
+                   ? Cell(28, {0, 1, 3, 2, 6, 5, 7, 4, 8})
+                   : Cell(29, {0,  1,  3,  2,  4,  5,  7,  6,  10, 9,  11, 8,  14, 13,
+                               15, 12, 16, 17, 19, 18, 20, 21, 22, 23, 24, 25, 26});
+        }
       if (shape == structure::ElementShape::simplex)
         return dim == 2 ? std::make_pair(5, std::vector<unsigned int>{0, 1, 2})
                         : std::make_pair(10, std::vector<unsigned int>{0, 1, 2, 3});
@@ -363,15 +374,17 @@ namespace mitre::io
     }
 
 
-    /// The VTU file of a part; @p X and @p U by node and component.
+    /// The VTU file of a part; @p X and @p U by node and component, @p fields those that
+    /// the part names, by element.
     template <int dim>
     void write_body(std::ostream &out,
                     const structure::Body<dim> &body,
                     const std::vector<double> &X,
-                    const std::vector<double> &U)
+                    const std::vector<double> &U,
+                    const std::vector<std::vector<double>> &fields)
     {
       const structure::Mesh<dim> &mesh = body.mesh();
-      const auto [type, corners]       = vtk_cell<dim>(mesh.shape);
+      const auto [type, corners]       = vtk_cell<dim>(mesh.shape, mesh.degree);
 
       std::vector<double> displacement = X;
       for (std::size_t i = 0; i < X.size(); ++i)
@@ -409,6 +422,18 @@ namespace mitre::io
         "material id",
         1,
         std::vector<std::int32_t>(mesh.material_ids.begin(), mesh.material_ids.end()));
+      for (unsigned int k = 0; k < fields.size(); ++k)
+        if (body.element_fields()[k] != "J")
+          {
+            const auto &quantity =
+              structure::find_stress_quantity<dim>(body.element_fields()[k]);
+            write_array(out,
+                        "Float32",
+                        quantity.name +
+                          (quantity.unit.empty() ? "" : " [" + quantity.unit + "]"),
+                        quantity.n_components,
+                        std::vector<float>(fields[k].begin(), fields[k].end()));
+          }
       out << "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
     }
   } // namespace
@@ -535,11 +560,13 @@ namespace mitre::io
 
     const std::vector<double> positions  = body.to_mesh_order(X);
     const std::vector<double> velocities = body.to_mesh_order(U);
+    const std::vector<std::vector<double>> fields =
+      body.compute_element_fields(body.element_fields(), X, time);
     call_together(communicator, [&]() {
       if (rank == 0)
         {
           write_file(folder + file_name, [&](std::ostream &out) {
-            write_body(out, body, positions, velocities);
+            write_body(out, body, positions, velocities, fields);
           });
           unsynchronised.insert(folder + file_name);
         }

@@ -182,6 +182,7 @@ namespace mitre::simulation
                        structure::constitutive_laws<dim>().names()) +
            one_of_each(
              "Constraints", "Constraint", "Type", structure::constraints<dim>().names()) +
+           one_of_each("Loads", "Load", "Type", structure::loads<dim>().names()) +
            "end\nend\n"
            "subsection Instruments\n" +
            one_of_each("Instruments",

@@ -8,6 +8,7 @@
 #include <mitre/base/exceptions.h>
 #include <mitre/base/parameters.h>
 #include <mitre/structure/body.h>
+#include <mitre/structure/constitutive_laws/volumetric_part.h>
 #include <mitre/structure/library.h>
 
 namespace mitre::structure
@@ -30,6 +31,21 @@ namespace mitre::structure
                       dealii::Patterns::Double(1e-15, 1e-2),
                       "Residual at which the solution with the consistent mass matrix "
                       "stops, relative to the right hand side.");
+    FibreRule<dim>::declare_parameters(prm);
+    std::string names, list;
+    for (const StressQuantity<dim> &quantity : stress_quantities<dim>())
+      {
+        names += (names.empty() ? "" : "|") + quantity.name;
+        list += (list.empty() ? "" : ", ") + quantity.name +
+                (quantity.unit.empty() ? "" : " [" + quantity.unit + "]");
+      }
+    prm.declare_entry(
+      "Element fields",
+      "",
+      dealii::Patterns::MultipleSelection(names),
+      "Fields of stress and strain by element that the output of the part "
+      "shall have besides J: " +
+        list + ".");
 
     for (const std::string &name :
          base::declare_names(prm,
@@ -64,6 +80,24 @@ namespace mitre::structure
         structure::constraints<dim>().declare_parameters(type, prm);
         prm.leave_subsection();
       }
+
+    for (const std::string &name :
+         base::declare_names(prm,
+                             "Loads",
+                             "",
+                             "Names of the loads; each is described in 'subsection Load "
+                             "NAME'."))
+      {
+        prm.enter_subsection("Load " + name);
+        const std::string type =
+          base::declare_choice(prm,
+                               "Type",
+                               structure::loads<dim>().names().front(),
+                               structure::loads<dim>().names(),
+                               "Kind of load.\n" + structure::loads<dim>().help());
+        structure::loads<dim>().declare_parameters(type, prm);
+        prm.leave_subsection();
+      }
   }
 
 
@@ -75,6 +109,8 @@ namespace mitre::structure
     mesh_file       = prm.get("Mesh file");
     consistent_mass = prm.get("Mass matrix") == "consistent";
     mass_tolerance  = prm.get_double("Mass solver tolerance");
+    fibre_rule.parse_parameters(prm, "Part " + part);
+    element_fields = base::parse_names(prm.get("Element fields"));
 
     materials.clear();
     for (const std::string &material_name : base::parse_names(prm.get("Materials")))
@@ -103,6 +139,17 @@ namespace mitre::structure
         constraints.back().constraint->parse_parameters(prm, what);
         prm.leave_subsection();
       }
+
+    loads.clear();
+    for (const std::string &load_name : base::parse_names(prm.get("Loads")))
+      {
+        const std::string what = "Part " + part + ", load " + load_name;
+
+        prm.enter_subsection("Load " + load_name);
+        loads.push_back({load_name, structure::loads<dim>().create(prm.get("Type"))});
+        loads.back().load->parse_parameters(prm, what);
+        prm.leave_subsection();
+      }
   }
 
 
@@ -111,7 +158,7 @@ namespace mitre::structure
                   Mesh<dim> mesh,
                   const MPI_Comm communicator)
     : parameters(std::move(parameters_))
-    , mesh_(std::move(mesh))
+    , mesh_(parameters.fibre_rule.apply(std::move(mesh)))
     , reference_element_(mesh_.shape, mesh_.degree)
   {
     AssertThrow(mesh_.n_elements() > 0,
@@ -127,6 +174,19 @@ namespace mitre::structure
         throw base::UserError("Part " + name() + ": " + error.what());
       }
 
+    AssertThrow(
+      parameters.consistent_mass || mesh_.shape == ElementShape::hypercube ||
+        mesh_.degree == 1,
+      base::UserError(
+        "Part " + name() + ": \"Mass matrix\" is 'lumped', but the elements of " +
+        mesh_.source + " are quadratic " + (dim == 2 ? "triangles" : "tetrahedra") +
+        ", at whose corners the row sums are " + (dim == 2 ? "zero" : "negative") +
+        "; expected 'consistent', or linear elements."));
+    for (const NamedConstraint<dim> &c : parameters.constraints)
+      c.constraint->initialize(mesh_);
+    for (const NamedLoad<dim> &l : parameters.loads)
+      l.load->initialize(mesh_);
+
     const unsigned int n_ranks  = dealii::Utilities::MPI::n_mpi_processes(communicator);
     const std::uint64_t n_nodes = mesh_.nodes.size();
     std::vector<unsigned int> owners(n_nodes);
@@ -140,6 +200,11 @@ namespace mitre::structure
                   base::UserError("Part " + name() + ", constraint " + c.name +
                                   ": no node of " + mesh_.source +
                                   " is in its region and material ids."));
+    for (const NamedLoad<dim> &l : parameters.loads)
+      AssertThrow(dealii::Utilities::MPI::sum(l.load->n_elements(), communicator) > 0,
+                  base::UserError("Part " + name() + ", load " + l.name +
+                                  ": no element or face of " + mesh_.source +
+                                  " is in its region and has its ids."));
   }
 
 
@@ -228,10 +293,14 @@ namespace mitre::structure
 
     for (const NamedConstraint<dim> &c : parameters.constraints)
       c.constraint->reinit(mesh_, elements_);
+    for (const NamedLoad<dim> &l : parameters.loads)
+      l.load->reinit(mesh_, elements_);
 
     ghosted_positions.reinit(elements_.partitioner());
+    ghosted_velocities.reinit(elements_.partitioner());
     local_forces.assign(elements_.n_nodes() * dim, 0.);
     initialize_vector(elastic_force);
+    initialize_vector(external_force);
     initialize_vector(elastic_density);
   }
 
@@ -341,15 +410,25 @@ namespace mitre::structure
 
 
   template <int dim>
-  std::vector<MaterialRange<dim>> Body<dim>::material_ranges(const double t) const
+  std::vector<MaterialRange<dim>>
+  Body<dim>::material_ranges(const double t, const unsigned int only) const
   {
     std::vector<MaterialRange<dim>> result;
     for (const Range &range : ranges)
-      {
-        const Material<dim> &material = parameters.materials[range.material];
-        result.push_back(
-          {range.begin, range.end, material.law.get(), material.time_factor.value(t)});
-      }
+      if (only == dealii::numbers::invalid_unsigned_int || only == range.material)
+        {
+          const Material<dim> &material = parameters.materials[range.material];
+          // A constant pointer, so that the law's constant function is taken.
+          const ConstitutiveLaw<dim> *const law = material.law.get();
+          const VolumetricPart *const part      = law->volumetric_part();
+          const bool projected = material.project_volume && cache.n_volume_modes > 0 &&
+                                 part != nullptr && part->bulk_modulus > 0;
+          result.push_back({range.begin,
+                            range.end,
+                            law,
+                            material.time_factor.value(t),
+                            projected ? part : nullptr});
+        }
     return result;
   }
 
@@ -357,13 +436,14 @@ namespace mitre::structure
   template <int dim>
   void Body<dim>::compute_elastic_force(const VectorType &X,
                                         const double t,
-                                        VectorType &G) const
+                                        VectorType &G,
+                                        const unsigned int material) const
   {
     const double *positions = import_positions(X);
 
     std::fill(local_forces.begin(), local_forces.end(), 0.);
     unsigned int inverted = dealii::numbers::invalid_unsigned_int;
-    for (const MaterialRange<dim> &range : material_ranges(t))
+    for (const MaterialRange<dim> &range : material_ranges(t, material))
       inverted = std::min(inverted,
                           structure::compute_elastic_force(
                             cache, elements_, range, t, positions, local_forces.data()));
@@ -398,12 +478,78 @@ namespace mitre::structure
 
 
   template <int dim>
+  bool Body<dim>::has_external_forces() const
+  {
+    return !parameters.loads.empty() ||
+           std::any_of(parameters.constraints.begin(),
+                       parameters.constraints.end(),
+                       [](const NamedConstraint<dim> &c) {
+                         return c.constraint->has_nodal_forces();
+                       });
+  }
+
+
+  template <int dim>
+  void Body<dim>::compute_external_forces(const VectorType &X,
+                                          const VectorType &U,
+                                          const double t,
+                                          VectorType &G,
+                                          const unsigned int which) const
+  {
+    const double *positions = import_positions(X);
+    ghosted_velocities.zero_out_ghost_values();
+    std::copy(U.begin(), U.end(), ghosted_velocities.begin());
+    ghosted_velocities.update_ghost_values();
+    const NodalState state{positions, ghosted_velocities.begin(), t};
+
+    std::fill(local_forces.begin(), local_forces.end(), 0.);
+    const auto wanted = [&](const unsigned int number) {
+      return which == dealii::numbers::invalid_unsigned_int || which == number;
+    };
+    unsigned int number = 0;
+    for (const NamedConstraint<dim> &c : parameters.constraints)
+      if (wanted(number++))
+        c.constraint->add_forces(state, local_forces.data());
+    for (const NamedLoad<dim> &l : parameters.loads)
+      if (wanted(number++))
+        l.load->add_forces(state, local_forces.data());
+    std::copy(local_forces.begin(),
+              local_forces.begin() + elements_.n_owned_nodes() * dim,
+              G.begin());
+  }
+
+
+  template <int dim>
+  dealii::Tensor<1, dim> Body<dim>::compute_total_external_force(const VectorType &X,
+                                                                 const VectorType &U,
+                                                                 const double t) const
+  {
+    VectorType v;
+    initialize_vector(v);
+    for (const NamedConstraint<dim> &c : parameters.constraints)
+      c.constraint->add_force_density(X, U, t, v);
+    dealii::Tensor<1, dim> total = compute_total(v);
+
+    compute_external_forces(X, U, t, v);
+    dealii::Tensor<1, dim> sum;
+    for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
+      sum[i % dim] += v.local_element(i);
+    return total + dealii::Utilities::MPI::sum(sum, communicator());
+  }
+
+
+  template <int dim>
   void Body<dim>::compute_force_density(const VectorType &X,
                                         const VectorType &U,
                                         const double t,
                                         VectorType &F)
   {
     compute_elastic_force(X, t, elastic_force);
+    if (has_external_forces())
+      {
+        compute_external_forces(X, U, t, external_force);
+        elastic_force += external_force;
+      }
     project(elastic_density, elastic_force);
     std::copy(elastic_density.begin(), elastic_density.end(), F.begin());
     for (const NamedConstraint<dim> &c : parameters.constraints)
@@ -433,6 +579,101 @@ namespace mitre::structure
       for (unsigned int c = 0; c < dim; ++c)
         total[c] += mass_matrix_.lumped()[i] * F.local_element(i * dim + c);
     return dealii::Utilities::MPI::sum(total, communicator());
+  }
+
+
+  template <int dim>
+  void Body<dim>::for_each_point(
+    const VectorType &X,
+    const double t,
+    const std::function<void(const unsigned int,
+                             const unsigned int,
+                             const double,
+                             const StressState<dim> &)> &function) const
+  {
+    const double *positions                         = import_positions(X);
+    const std::vector<MaterialRange<dim>> materials = material_ranges(t);
+    for (unsigned int r = 0; r < ranges.size(); ++r)
+      for (unsigned int i = ranges[r].begin; i < ranges[r].end; ++i)
+        if (elements_.nodes(i)[0] < elements_.n_owned_nodes())
+          {
+            const MaterialRange<dim> &range = materials[r];
+            const unsigned int n_q          = cache.points_per_element;
+            std::vector<dealii::Tensor<2, dim>> F(n_q);
+            std::vector<double> J(n_q), pressures(n_q);
+            for (unsigned int q = 0; q < n_q; ++q)
+              {
+                F[q] = compute_deformation_gradient(cache, elements_, i, q, positions);
+                J[q] = determinant(F[q]);
+              }
+            if (range.projected_part != nullptr)
+              project_volumetric_part(
+                cache, *range.projected_part, i, J.data(), pressures.data());
+            for (unsigned int q = 0; q < n_q; ++q)
+              {
+                dealii::Tensor<2, dim> P =
+                  range.law->first_piola_kirchhoff_stress(F[q], cache.fibres[i], t);
+                if (range.projected_part != nullptr)
+                  P +=
+                    (pressures[q] - range.projected_part->bulk_kirchhoff_pressure(J[q])) *
+                    transpose(invert(F[q]));
+                function(ranges[r].material,
+                         elements_.element(i),
+                         cache.JxW[i * n_q + q],
+                         StressState<dim>(F[q], range.time_factor * P, cache.fibres[i]));
+              }
+          }
+  }
+
+
+  template <int dim>
+  std::vector<std::vector<double>>
+  Body<dim>::compute_element_fields(const std::vector<std::string> &names,
+                                    const VectorType &X,
+                                    const double t) const
+  {
+    std::vector<const StressQuantity<dim> *> quantities;
+    std::vector<std::vector<double>> fields;
+    for (const std::string &quantity_name : names)
+      {
+        quantities.push_back(&find_stress_quantity<dim>(quantity_name));
+        fields.emplace_back(mesh_.n_elements() * quantities.back()->n_components, 0.);
+      }
+
+    unsigned int element = dealii::numbers::invalid_unsigned_int;
+    StressState<dim> mean;
+    double volume             = 0;
+    const auto finish_element = [&]() {
+      if (volume == 0)
+        return;
+      mean.divide(volume);
+      for (unsigned int k = 0; k < quantities.size(); ++k)
+        quantities[k]->evaluate(mean,
+                                fields[k].data() + element * quantities[k]->n_components);
+    };
+    for_each_point(X,
+                   t,
+                   [&](const unsigned int,
+                       const unsigned int e,
+                       const double JxW,
+                       const StressState<dim> &state) {
+                     if (e != element)
+                       {
+                         finish_element();
+                         element = e;
+                         mean    = StressState<dim>();
+                         volume  = 0;
+                       }
+                     mean.add(JxW, state);
+                     volume += JxW;
+                   });
+    finish_element();
+
+    for (std::vector<double> &field : fields)
+      dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(field),
+                                  communicator(),
+                                  dealii::ArrayView<double>(field));
+    return fields;
   }
 
 

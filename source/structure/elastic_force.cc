@@ -1,34 +1,34 @@
 #include <deal.II/base/types.h>
+#include <deal.II/lac/full_matrix.h>
 
 #include <algorithm>
 #include <array>
 
+#include <mitre/structure/constitutive_laws/volumetric_part.h>
 #include <mitre/structure/elastic_force.h>
 
 namespace mitre::structure
 {
-  template <int dim>
-  void ReferenceCache<dim>::reinit(const Mesh<dim> &mesh,
-                                   const ElementSet<dim> &elements,
-                                   const ReferenceElement<dim> &reference_element)
+  namespace
   {
-    const ShapeTable<dim> shape(reference_element, reference_element.force_quadrature());
-    nodes_per_element  = shape.n_nodes;
-    points_per_element = shape.n_points;
-
-    gradients.clear();
-    gradients.reserve(elements.n_elements() * shape.n_points * shape.n_nodes * dim);
-    JxW.clear();
-    JxW.reserve(elements.n_elements() * shape.n_points);
-    fibres.assign(elements.n_elements(), Fibres<dim>());
-
-    for (unsigned int i = 0; i < elements.n_elements(); ++i)
-      {
-        const unsigned int e = elements.element(i);
+    /// Gradients of the shape functions and JxW at the points of a rule.
+    template <int dim>
+    void compute_gradients(const Mesh<dim> &mesh,
+                           const ElementSet<dim> &elements,
+                           const ShapeTable<dim> &shape,
+                           std::vector<double> &gradients,
+                           std::vector<double> &JxW)
+    {
+      gradients.clear();
+      gradients.reserve(elements.n_elements() * shape.n_points * shape.n_nodes * dim);
+      JxW.clear();
+      JxW.reserve(elements.n_elements() * shape.n_points);
+      for (unsigned int i = 0; i < elements.n_elements(); ++i)
         for (unsigned int q = 0; q < shape.n_points; ++q)
           {
-            const dealii::Tensor<2, dim> jacobian = shape.jacobian(mesh, e, q);
-            const dealii::Tensor<2, dim> inverse  = invert(jacobian);
+            const dealii::Tensor<2, dim> jacobian =
+              shape.jacobian(mesh, elements.element(i), q);
+            const dealii::Tensor<2, dim> inverse = invert(jacobian);
             for (unsigned int a = 0; a < shape.n_nodes; ++a)
               {
                 const dealii::Tensor<1, dim> gradient =
@@ -38,9 +38,51 @@ namespace mitre::structure
               }
             JxW.push_back(determinant(jacobian) * shape.weights[q]);
           }
-        for (unsigned int f = 0; f < mesh.n_fibre_families(); ++f)
-          fibres[i][f] = mesh.fibres[f][e];
+    }
+  } // namespace
+
+
+  template <int dim>
+  void ReferenceCache<dim>::reinit(const Mesh<dim> &mesh,
+                                   const ElementSet<dim> &elements,
+                                   const ReferenceElement<dim> &reference_element)
+  {
+    // Step 1: gradients.
+    const ShapeTable<dim> shape(reference_element, reference_element.force_quadrature());
+    nodes_per_element  = shape.n_nodes;
+    points_per_element = shape.n_points;
+    compute_gradients(mesh, elements, shape, gradients, JxW);
+
+    // Step 2: the functions for the change of volume, and the inverse of their mass.
+    const dealii::Quadrature<dim> &rule = reference_element.force_quadrature();
+    n_volume_modes                      = shape.n_nodes == dim + 1 ? 0
+                                          : mesh.shape == ElementShape::hypercube && mesh.degree == 2 ? dim + 1
+                                                                                                      : 1;
+    volume_modes.clear();
+    for (unsigned int q = 0; q < shape.n_points; ++q)
+      for (unsigned int k = 0; k < n_volume_modes; ++k)
+        volume_modes.push_back(k == 0 ? 1 : rule.point(q)[k - 1] - 0.5);
+    inverse_volume_mass.clear();
+    for (unsigned int i = 0; i < (n_volume_modes > 0 ? elements.n_elements() : 0); ++i)
+      {
+        dealii::FullMatrix<double> mass(n_volume_modes);
+        for (unsigned int q = 0; q < shape.n_points; ++q)
+          for (unsigned int k = 0; k < n_volume_modes; ++k)
+            for (unsigned int l = 0; l < n_volume_modes; ++l)
+              mass(k, l) += JxW[i * shape.n_points + q] *
+                            volume_modes[q * n_volume_modes + k] *
+                            volume_modes[q * n_volume_modes + l];
+        mass.gauss_jordan();
+        for (unsigned int k = 0; k < n_volume_modes; ++k)
+          for (unsigned int l = 0; l < n_volume_modes; ++l)
+            inverse_volume_mass.push_back(mass(k, l));
       }
+
+    // Step 3: fibres.
+    fibres.assign(elements.n_elements(), Fibres<dim>());
+    for (unsigned int i = 0; i < elements.n_elements(); ++i)
+      for (unsigned int f = 0; f < mesh.n_fibre_families(); ++f)
+        fibres[i][f] = mesh.fibres[f][elements.element(i)];
   }
 
 
@@ -65,6 +107,33 @@ namespace mitre::structure
         for (int j = 0; j < dim; ++j)
           result[i][j] = F[i][j];
       return result;
+    }
+
+
+    /// Add factor P grad phi_a to the nodes of an element.
+    template <int dim, int n_nodes>
+    inline void add_stress(const dealii::Tensor<2, dim> &P,
+                           const double factor,
+                           const double *gradients,
+                           const unsigned int *nodes,
+                           double *forces)
+    {
+      double stress[dim][dim];
+      for (int c = 0; c < dim; ++c)
+        for (int j = 0; j < dim; ++j)
+          stress[c][j] = P[c][j] * factor;
+
+      for (int a = 0; a < n_nodes; ++a)
+        {
+          double *force = forces + nodes[a] * dim;
+          for (int c = 0; c < dim; ++c)
+            {
+              double sum = 0;
+              for (int j = 0; j < dim; ++j)
+                sum += stress[c][j] * gradients[a * dim + j];
+              force[c] += sum;
+            }
+        }
     }
 
 
@@ -118,6 +187,21 @@ namespace mitre::structure
             t,
             dealii::ArrayView<dealii::Tensor<2, dim>>(P.data(), p));
 
+          if (range.projected_part != nullptr)
+            {
+              std::array<double, max_points> pressures;
+              for (unsigned int i = begin; i < end; ++i)
+                project_volumetric_part(cache,
+                                        *range.projected_part,
+                                        i,
+                                        J.data() + (i - begin) * n_q,
+                                        pressures.data() + (i - begin) * n_q);
+              for (unsigned int point = 0; point < p; ++point)
+                P[point] += (pressures[point] -
+                             range.projected_part->bulk_kirchhoff_pressure(J[point])) *
+                            transpose(invert(F[point]));
+            }
+
           // Step 3: forces.
           p = 0;
           for (unsigned int i = begin; i < end; ++i)
@@ -127,22 +211,8 @@ namespace mitre::structure
                 const double *gradients =
                   cache.gradients.data() + (i * n_q + q) * n_nodes * dim;
 
-                double stress[dim][dim];
-                for (int c = 0; c < dim; ++c)
-                  for (int j = 0; j < dim; ++j)
-                    stress[c][j] = P[p][c][j] * factor;
-
-                for (int a = 0; a < n_nodes; ++a)
-                  {
-                    double *force = forces + elements.nodes(i)[a] * dim;
-                    for (int c = 0; c < dim; ++c)
-                      {
-                        double sum = 0;
-                        for (int j = 0; j < dim; ++j)
-                          sum += stress[c][j] * gradients[a * dim + j];
-                        force[c] += sum;
-                      }
-                  }
+                add_stress<dim, n_nodes>(
+                  P[p], factor, gradients, elements.nodes(i), forces);
               }
         }
       return dealii::numbers::invalid_unsigned_int;
@@ -158,20 +228,12 @@ namespace mitre::structure
                                      const double *positions,
                                      double *forces)
   {
-    const auto compute = [&](const auto n_nodes) {
-      return compute_force<dim, decltype(n_nodes)::value>(
+    unsigned int result = dealii::numbers::invalid_unsigned_int;
+    with_n_nodes<dim>(cache.nodes_per_element, [&](const auto n_nodes) {
+      result = compute_force<dim, decltype(n_nodes)::value>(
         cache, elements, range, t, positions, forces);
-    };
-    switch (cache.nodes_per_element)
-      {
-        case dim + 1:
-          return compute(std::integral_constant<int, dim + 1>());
-        case (1 << dim):
-          return compute(std::integral_constant<int, (1 << dim)>());
-        default:
-          AssertThrow(false, dealii::ExcNotImplemented());
-          return 0;
-      }
+    });
+    return result;
   }
 
 
@@ -182,16 +244,77 @@ namespace mitre::structure
                                 const double t,
                                 const double *positions)
   {
+    const unsigned int n_q     = cache.points_per_element;
+    const VolumetricPart *part = range.projected_part;
+    std::vector<double> J(n_q), pressures(n_q);
     double energy = 0;
     for (unsigned int i = range.begin; i < range.end; ++i)
       if (elements.nodes(i)[0] < elements.n_owned_nodes())
-        for (unsigned int q = 0; q < cache.points_per_element; ++q)
-          energy += cache.JxW[i * cache.points_per_element + q] *
-                    range.law->energy(
-                      compute_deformation_gradient(cache, elements, i, q, positions),
-                      cache.fibres[i],
-                      t);
+        {
+          for (unsigned int q = 0; q < n_q; ++q)
+            {
+              const dealii::Tensor<2, dim> F =
+                compute_deformation_gradient(cache, elements, i, q, positions);
+              double density = range.law->energy(F, cache.fibres[i], t);
+              if (part != nullptr)
+                {
+                  J[q] = determinant(F);
+                  density -= part->bulk_energy(J[q]);
+                }
+              energy += cache.JxW[i * n_q + q] * density;
+            }
+          if (part != nullptr)
+            energy +=
+              project_volumetric_part(cache, *part, i, J.data(), pressures.data());
+        }
     return energy * range.time_factor;
+  }
+
+
+  template <int dim>
+  double project_volumetric_part(const ReferenceCache<dim> &cache,
+                                 const VolumetricPart &part,
+                                 const unsigned int i,
+                                 const double *J,
+                                 double *pressures)
+  {
+    constexpr unsigned int max_modes = dim + 1;
+    const unsigned int n_q           = cache.points_per_element;
+    const unsigned int n             = cache.n_volume_modes;
+    const double *JxW                = cache.JxW.data() + i * n_q;
+    const double *inverse_mass       = cache.inverse_volume_mass.data() + i * n * n;
+
+    /// Replace values at the points by those of their projection.
+    const auto project = [&](double *values) {
+      double moments[max_modes] = {};
+      for (unsigned int q = 0; q < n_q; ++q)
+        for (unsigned int k = 0; k < n; ++k)
+          moments[k] += JxW[q] * values[q] * cache.volume_modes[q * n + k];
+      double coefficients[max_modes] = {};
+      for (unsigned int k = 0; k < n; ++k)
+        for (unsigned int l = 0; l < n; ++l)
+          coefficients[k] += inverse_mass[k * n + l] * moments[l];
+      for (unsigned int q = 0; q < n_q; ++q)
+        {
+          values[q] = 0;
+          for (unsigned int k = 0; k < n; ++k)
+            values[q] += coefficients[k] * cache.volume_modes[q * n + k];
+        }
+    };
+
+    std::copy(J, J + n_q, pressures);
+    project(pressures);
+    double energy = 0;
+    for (unsigned int q = 0; q < n_q; ++q)
+      {
+        const double projected_J = pressures[q];
+        energy += JxW[q] * part.bulk_energy(projected_J);
+        pressures[q] = part.bulk_kirchhoff_pressure(projected_J) / projected_J;
+      }
+    project(pressures);
+    for (unsigned int q = 0; q < n_q; ++q)
+      pressures[q] *= J[q];
+    return energy;
   }
 
 
@@ -205,10 +328,12 @@ namespace mitre::structure
     const double *gradients =
       cache.gradients.data() +
       (i * cache.points_per_element + q) * cache.nodes_per_element * dim;
-    if (cache.nodes_per_element == dim + 1)
-      return deformation_gradient<dim, dim + 1>(gradients, elements.nodes(i), positions);
-    AssertThrow(cache.nodes_per_element == (1 << dim), dealii::ExcNotImplemented());
-    return deformation_gradient<dim, (1 << dim)>(gradients, elements.nodes(i), positions);
+    dealii::Tensor<2, dim> result;
+    with_n_nodes<dim>(cache.nodes_per_element, [&](const auto n_nodes) {
+      result = deformation_gradient<dim, decltype(n_nodes)::value>(
+        gradients, elements.nodes(i), positions);
+    });
+    return result;
   }
 
 
@@ -225,6 +350,11 @@ namespace mitre::structure
                                          const MaterialRange<dim> &,                     \
                                          const double,                                   \
                                          const double *);                                \
+  template double project_volumetric_part(const ReferenceCache<dim> &,                   \
+                                          const VolumetricPart &,                        \
+                                          const unsigned int,                            \
+                                          const double *,                                \
+                                          double *);                                     \
   template dealii::Tensor<2, dim> compute_deformation_gradient(                          \
     const ReferenceCache<dim> &,                                                         \
     const ElementSet<dim> &,                                                             \

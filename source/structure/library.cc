@@ -9,6 +9,10 @@
 #include <mitre/structure/constitutive_laws/transversely_isotropic.h>
 #include <mitre/structure/constraints/tether.h>
 #include <mitre/structure/library.h>
+#include <mitre/structure/loads/body_force.h>
+#include <mitre/structure/loads/damping.h>
+#include <mitre/structure/loads/pressure.h>
+#include <mitre/structure/loads/traction.h>
 
 namespace mitre::structure
 {
@@ -55,8 +59,28 @@ namespace mitre::structure
     static const auto registry = [] {
       base::PluginRegistry<Constraint<dim>> constraints("constraint");
       constraints.template add<Tether<dim>>(
-        "tether", "springs and dampers between nodes and their reference positions");
+        "tether",
+        "springs and dampers between nodes and where they shall be, which may move");
       return constraints;
+    }();
+    return registry;
+  }
+
+
+  template <int dim>
+  const base::PluginRegistry<Load<dim>> &loads()
+  {
+    static const auto registry = [] {
+      base::PluginRegistry<Load<dim>> loads("load");
+      loads.template add<Pressure<dim>>(
+        "pressure", "on the surface, which it may follow as the body deforms");
+      loads.template add<Traction<dim>>(
+        "traction", "a force per reference area on the surface, in a given direction");
+      loads.template add<BodyForce<dim>>("body force",
+                                         "a force per reference volume, such as weight");
+      loads.template add<Damping<dim>>("damping",
+                                       "a drag that is proportional to the velocity");
+      return loads;
     }();
     return registry;
   }
@@ -66,4 +90,6 @@ namespace mitre::structure
   template const base::PluginRegistry<ConstitutiveLaw<3>> &constitutive_laws<3>();
   template const base::PluginRegistry<Constraint<2>> &constraints<2>();
   template const base::PluginRegistry<Constraint<3>> &constraints<3>();
+  template const base::PluginRegistry<Load<2>> &loads<2>();
+  template const base::PluginRegistry<Load<3>> &loads<3>();
 } // namespace mitre::structure

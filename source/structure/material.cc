@@ -1,82 +1,45 @@
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 #include <mitre/base/exceptions.h>
 #include <mitre/base/nearest_name.h>
 #include <mitre/base/parameters.h>
+#include <mitre/structure/constitutive_laws/volumetric_part.h>
 #include <mitre/structure/library.h>
 #include <mitre/structure/material.h>
 
 namespace mitre::structure
 {
   StiffnessFactor::StiffnessFactor()
-    : expression("1", "Time factor")
+    : TimeFunction(base::TimeExpression("1", "Time factor"))
   {
   }
 
 
   StiffnessFactor::StiffnessFactor(base::TimeExpression expression)
-    : expression(std::move(expression))
+    : TimeFunction(std::move(expression))
   {
   }
 
 
   void StiffnessFactor::declare_parameters(dealii::ParameterHandler &prm)
   {
-    prm.declare_entry("Time factor",
-                      "1",
-                      dealii::Patterns::Anything(),
-                      "Expression of the time t [s] that multiplies the stress.");
-    prm.declare_entry("Time factor table",
-                      "",
-                      base::InputFile(),
-                      "Table (CSV) of the factor over time, in the place of the "
-                      "expression.");
-    prm.declare_entry("Time factor column",
-                      "",
-                      dealii::Patterns::Anything(),
-                      "Name of the table's column, with the unit [1].");
-    prm.declare_entry(
-      "Time factor extension",
-      "clamped",
-      dealii::Patterns::Selection("clamped|periodic"),
-      "The factor outside of the table's times: its first and last value, "
-      "or the table over and over.");
+    TimeFunction::declare_parameters(prm,
+                                     "Time factor",
+                                     "1",
+                                     "Expression of the time t [s] that multiplies the "
+                                     "stress.",
+                                     "with the unit [1]");
   }
 
 
   void StiffnessFactor::parse_parameters(dealii::ParameterHandler &prm,
                                          const std::string &what)
   {
-    const std::string text   = prm.get("Time factor");
-    const std::string file   = prm.get("Time factor table");
-    const std::string column = prm.get("Time factor column");
-
-    expression = base::TimeExpression(text, what + ", Time factor");
-    table      = nullptr;
-    AssertThrow(file.empty() == column.empty(),
-                base::UserError(what + ": \"Time factor table\" is '" + file +
-                                "' and \"Time factor column\" is '" + column +
-                                "'; expected both or neither."));
-    if (file.empty())
-      return;
-    AssertThrow(text == "1",
-                base::UserError(what +
-                                ": there is a \"Time factor table\" as well as the "
-                                "\"Time factor\" '" +
-                                text + "'; expected one of them."));
-    const auto new_table = std::make_shared<const base::TimeTable>(
-      file,
-      prm.get("Time factor extension") == "periodic"
-        ? base::TimeTable::Extension::periodic
-        : base::TimeTable::Extension::clamped);
-    this->column = new_table->column(column);
-    table        = new_table;
-  }
-
-
-  double StiffnessFactor::value(const double t) const
-  {
-    return table ? table->value(column, t) : expression.value(t);
+    TimeFunction::parse_parameters(prm, "Time factor", "1", what);
   }
 
 
@@ -84,6 +47,19 @@ namespace mitre::structure
   void Material<dim>::declare_parameters(dealii::ParameterHandler &prm)
   {
     StiffnessFactor::declare_parameters(prm);
+    prm.declare_entry("Stabilisation Poisson ratio",
+                      "0.4",
+                      dealii::Patterns::Double(-1, 0.4999999),
+                      "nu by which a law whose \"Bulk modulus\" is 0 gets one after all, "
+                      "kappa = 2 G (1 + nu) / (3 (1 - 2 nu)) with its shear modulus "
+                      "G, so that the tissue keeps its volume; -1: none.");
+    prm.declare_entry(
+      "Volumetric integration",
+      "reduced",
+      dealii::Patterns::Selection("reduced|full"),
+      "'reduced': the volumetric energy sees the change of volume projected "
+      "to few functions an element, so that elements do not lock; the "
+      "same for linear triangles and tetrahedra.");
     const std::string law =
       base::declare_choice(prm,
                            "Law",
@@ -113,9 +89,53 @@ namespace mitre::structure
     prm.enter_subsection(law_name);
     law->parse_parameters(prm);
     prm.leave_subsection();
+
+    project_volume                   = prm.get("Volumetric integration") == "reduced";
+    const double poisson_ratio       = prm.get_double("Stabilisation Poisson ratio");
+    VolumetricPart *const volumetric = law->volumetric_part();
+    if (volumetric != nullptr && volumetric->bulk_modulus == 0 && poisson_ratio > -1)
+      volumetric->bulk_modulus =
+        bulk_modulus_of(compute_shear_modulus(*law), poisson_ratio);
+  }
+
+
+  template <int dim>
+  double compute_shear_modulus(const ConstitutiveLaw<dim> &law)
+  {
+    Fibres<dim> fibres;
+    for (unsigned int f = 0; f < law.n_fibre_families(); ++f)
+      fibres[f][f] = 1;
+    constexpr double step = 1e-5;
+
+    double smallest = std::numeric_limits<double>::max();
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < i; ++j)
+        {
+          // Of the Kirchhoff stress, in which a reference stress that is a pressure does
+          // not count.
+          double difference = 0;
+          for (const double gamma : {-step, step})
+            {
+              dealii::Tensor<2, dim> F = dealii::unit_symmetric_tensor<dim>();
+              F[i][j] = F[j][i] = 0.5 * gamma;
+              const dealii::Tensor<2, dim> tau =
+                law.first_piola_kirchhoff_stress(F, fibres, 0.) * transpose(F);
+              difference += gamma > 0 ? tau[i][j] : -tau[i][j];
+            }
+          smallest = std::min(smallest, difference / (2 * step));
+        }
+    return smallest;
+  }
+
+
+  double bulk_modulus_of(const double shear_modulus, const double poisson_ratio)
+  {
+    return 2 * shear_modulus * (1 + poisson_ratio) / (3 * (1 - 2 * poisson_ratio));
   }
 
 
   template struct Material<2>;
   template struct Material<3>;
+  template double compute_shear_modulus(const ConstitutiveLaw<2> &);
+  template double compute_shear_modulus(const ConstitutiveLaw<3> &);
 } // namespace mitre::structure

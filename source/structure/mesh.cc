@@ -42,19 +42,9 @@ namespace mitre::structure
     const ReferenceElement<dim> element(mesh.shape, mesh.degree);
     const unsigned int n_nodes = mesh.nodes_per_element;
 
-    // At the vertices, where the Jacobian of a multilinear cell is smallest.
-    std::vector<dealii::Point<dim>> vertices;
-    if (mesh.shape == ElementShape::simplex)
-      vertices.push_back(dealii::Point<dim>());
-    else
-      for (unsigned int v = 0; v < (1u << dim); ++v)
-        {
-          dealii::Point<dim> vertex;
-          for (unsigned int d = 0; d < dim; ++d)
-            vertex[d] = (v >> d) & 1u;
-          vertices.push_back(vertex);
-        }
-    const ShapeTable<dim> at_vertices(element, dealii::Quadrature<dim>(vertices));
+    // At the vertices, where the Jacobian of a multilinear cell is smallest; of quadratic
+    // elements at all nodes.
+    const ShapeTable<dim> at_vertices(element, dealii::Quadrature<dim>(element.nodes()));
     const ShapeTable<dim> volume_rule(element, element.force_quadrature());
 
     for (unsigned int e = 0; e < mesh.n_elements(); ++e)

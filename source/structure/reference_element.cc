@@ -39,6 +39,13 @@ namespace mitre::structure
 
 
   template <int dim>
+  const std::vector<dealii::Point<dim>> &ReferenceElement<dim>::nodes() const
+  {
+    return fe->get_unit_support_points();
+  }
+
+
+  template <int dim>
   double ReferenceElement<dim>::value(const unsigned int a,
                                       const dealii::Point<dim> &xi) const
   {

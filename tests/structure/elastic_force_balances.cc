@@ -1,8 +1,9 @@
-// On irregular meshes of each element shape: the elastic forces of a deformed body add up
-// to no force and no torque (round-off of a sum over the nodes); they are minus the
-// derivative of the strain energy by the nodes' positions (central differences with step
-// 1e-5, relative error of order 1e-9); and under a linear map of a body of one material
-// they vanish at inner nodes (patch test).
+// On irregular meshes of each shape and degree of elements, whose volumetric energy sees
+// a projected change of volume: the elastic forces of a deformed body add up to no force
+// and no torque (round-off of a sum over the nodes); they are minus the derivative of the
+// strain energy by the nodes' positions (central differences with step 1e-5, relative
+// error of order 1e-9); and under a linear map of a body of one material they vanish at
+// inner nodes (patch test).
 
 #include "structure_tests.h"
 
@@ -10,9 +11,9 @@ using namespace structure_tests;
 
 template <int dim>
 void
-check(const ElementShape shape)
+check(const ElementShape shape, const unsigned int degree)
 {
-  Mesh<dim> mesh = make_box<dim>(shape, 4);
+  Mesh<dim> mesh = make_box_of_degree<dim>(shape, degree, degree == 1 ? 4 : 2);
   const Body<dim> body(make_parameters<dim>(), mesh, MPI_COMM_SELF);
 
   VectorType X, G, Y;
@@ -61,6 +62,11 @@ check(const ElementShape shape)
     id = 1;
   BodyParameters<dim> parameters = make_parameters<dim>();
   parameters.materials.pop_back();
+  parameters.materials[0].law = make_law<dim>("transversely isotropic",
+                                              "set C1 = 3\n"
+                                              "set a_f = 5\n"
+                                              "set b_f = 2\n"
+                                              "set Bulk modulus = 40\n");
   const Body<dim> patch(parameters, mesh, MPI_COMM_SELF);
   for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
     for (unsigned int c = 0; c < dim; ++c)
@@ -77,8 +83,9 @@ check(const ElementShape shape)
           std::max(is_inner ? inner : outer, std::abs(G[i * dim + c]));
     }
 
-  std::cout << shape_name(dim, shape) << ": force " << below(force.norm() / size, 1e-15)
-            << ", torque " << below(torque.norm() / size, 1e-15) << ", energy "
+  std::cout << element_name(dim, shape, degree) << ": force "
+            << below(force.norm() / size, 1e-15) << ", torque "
+            << below(torque.norm() / size, 1e-15) << ", energy "
             << below(error / largest, 1e-7) << ", patch test "
             << below(inner / outer, 1e-13) << std::endl;
 }
@@ -87,8 +94,11 @@ int
 main(int argc, char **argv)
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  check<2>(ElementShape::simplex);
-  check<2>(ElementShape::hypercube);
-  check<3>(ElementShape::simplex);
-  check<3>(ElementShape::hypercube);
+  for (const unsigned int degree : {1, 2})
+    {
+      check<2>(ElementShape::simplex, degree);
+      check<2>(ElementShape::hypercube, degree);
+      check<3>(ElementShape::simplex, degree);
+      check<3>(ElementShape::hypercube, degree);
+    }
 }

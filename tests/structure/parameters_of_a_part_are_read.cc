@@ -43,6 +43,7 @@ main()
                            "      set a_f = 200\n"
                            "      set b_f = 60\n"
                            "    end\n"
+                           "    set Stabilisation Poisson ratio = -1\n"
                            "  end\n"
                            "  subsection Material chord\n"
                            "    set Material id = 2\n"

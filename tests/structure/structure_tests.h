@@ -5,8 +5,10 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -91,6 +93,73 @@ namespace structure_tests
   }
 
 
+  /// A mesh of linear elements with nodes in the middle of edges (and, of hypercubes, of
+  /// faces and cells) added: quadratic elements of the same shape.
+  template <int dim>
+  Mesh<dim> make_quadratic(const Mesh<dim> &linear)
+  {
+    const ReferenceElement<dim> element(linear.shape, 1), quadratic(linear.shape, 2);
+    Mesh<dim> mesh         = linear;
+    mesh.degree            = 2;
+    mesh.nodes_per_element = quadratic.n_nodes();
+    mesh.elements.clear();
+    // A node is known by the corners of which it is the mean.
+    std::map<std::vector<unsigned int>, unsigned int> node_of_corners;
+    for (unsigned int e = 0; e < linear.n_elements(); ++e)
+      for (unsigned int b = 0; b < quadratic.n_nodes(); ++b)
+        {
+          std::vector<unsigned int> corners;
+          dealii::Point<dim> x;
+          for (unsigned int a = 0; a < element.n_nodes(); ++a)
+            {
+              const double weight     = element.value(a, quadratic.nodes()[b]);
+              const unsigned int node = linear.elements[e * element.n_nodes() + a];
+              if (std::abs(weight) > 1e-10)
+                corners.push_back(node);
+              x += weight * linear.nodes[node];
+            }
+          if (corners.size() == 1)
+            mesh.elements.push_back(corners[0]);
+          else
+            {
+              std::sort(corners.begin(), corners.end());
+              const auto added = node_of_corners.emplace(corners, mesh.nodes.size());
+              if (added.second)
+                mesh.nodes.push_back(x);
+              mesh.elements.push_back(added.first->second);
+            }
+        }
+    return mesh;
+  }
+
+
+  /// The box of make_box() with elements of degree 1 or 2.
+  template <int dim>
+  Mesh<dim> make_box_of_degree(const ElementShape shape,
+                               const unsigned int degree,
+                               const unsigned int n,
+                               const double jitter = 0.2)
+  {
+    const Mesh<dim> linear = make_box<dim>(shape, n, jitter);
+    return degree == 1 ? linear : make_quadratic(linear);
+  }
+
+
+  /// A plugin of a registry with given parameters, as "name = value" lines.
+  template <typename Plugin>
+  std::shared_ptr<Plugin> make_plugin(const mitre::base::PluginRegistry<Plugin> &registry,
+                                      const std::string &name,
+                                      const std::string &values)
+  {
+    dealii::ParameterHandler prm;
+    registry.declare_parameters(name, prm);
+    prm.parse_input_from_string(values);
+    std::shared_ptr<Plugin> plugin = registry.create(name);
+    plugin->parse_parameters(prm, "Part box, " + name);
+    return plugin;
+  }
+
+
   /// A law with given parameters, as "name = value" lines, on top of its defaults.
   template <int dim>
   std::shared_ptr<ConstitutiveLaw<dim>> make_law(const std::string &name,
@@ -164,6 +233,15 @@ namespace structure_tests
     if (value < bound)
       return "ok";
     return "FAILED, " + std::to_string(value) + " is not below the bound";
+  }
+
+
+  inline std::string
+  element_name(const int dim, const ElementShape shape, const unsigned int degree)
+  {
+    return std::string(degree == 2 ? "quadratic " : "") +
+           (shape == ElementShape::simplex ? (dim == 2 ? "triangles" : "tetrahedra")
+                                           : (dim == 2 ? "quadrilaterals" : "hexahedra"));
   }
 
 

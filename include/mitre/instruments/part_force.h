@@ -7,9 +7,9 @@ namespace mitre::instruments
 {
   /**
    * The force of the fluid on a part that its constraints hold: minus the sum of the
-   * forces of the constraints [dyn; dyn/cm in 2D]. For a part at rest that is drag and
-   * lift, as the elastic forces of a part sum to zero and the fluid inside of it does not
-   * accelerate.
+   * forces of its constraints and loads [dyn; dyn/cm in 2D]. For a part at rest that is
+   * drag and lift, as the elastic forces of a part sum to zero and the fluid inside of it
+   * does not accelerate.
    *
    * With a reference force, such as rho U^2 L / 2, the force divided by it is given too:
    * the drag and lift coefficients.

@@ -11,9 +11,11 @@
 namespace mitre::io
 {
   /**
-   * Read a structure mesh: elements of dimension @p dim and of one shape, P1 simplices or
-   * Q1 hypercubes, their first physical id as material id, and fibre directions. Elements
-   * of lower dimension are skipped, and so are nodes that no element has.
+   * Read a structure mesh: elements of dimension @p dim and of one shape, simplices or
+   * hypercubes of first or (gmsh only) second order, their first physical id as material
+   * id, and fibre directions. Elements of one dimension less that have a physical id
+   * (gmsh only) become boundary elements; others are skipped, and so are nodes that no
+   * element has.
    *
    * gmsh's <code>.msh</code> files, ASCII, formats 2.2 and 4.1, are read by
    * read_msh(); for all others the formats of dealii::GridIn are tried by the ending of

@@ -54,8 +54,8 @@ namespace mitre::io
 
     /**
      * A frame of a part at its deformed place, with the fields displacement [cm] and
-     * velocity [cm/s] of the nodes, and J (deformed over reference volume) and material
-     * id of the elements. Elements of higher degree are drawn by their corners.
+     * velocity [cm/s] of the nodes, and J (deformed over reference volume), material id
+     * and those fields of stress and strain of the elements that the part names.
      *
      * Rank 0 writes all of it. Throws base::UserError if the part's name is not fit for a
      * file.

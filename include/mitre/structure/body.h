@@ -13,11 +13,14 @@
 
 #include <mitre/structure/constraints/constraint.h>
 #include <mitre/structure/elastic_force.h>
+#include <mitre/structure/fibre_rule.h>
+#include <mitre/structure/loads/load.h>
 #include <mitre/structure/mass_matrix.h>
 #include <mitre/structure/material.h>
 #include <mitre/structure/mesh.h>
 #include <mitre/structure/node_numbering.h>
 #include <mitre/structure/reference_element.h>
+#include <mitre/structure/stress_state.h>
 
 namespace mitre::structure
 {
@@ -26,6 +29,14 @@ namespace mitre::structure
   {
     std::string name;
     std::shared_ptr<Constraint<dim>> constraint;
+  };
+
+
+  template <int dim>
+  struct NamedLoad
+  {
+    std::string name;
+    std::shared_ptr<Load<dim>> load;
   };
 
 
@@ -39,8 +50,14 @@ namespace mitre::structure
     std::string mesh_file;
     std::vector<Material<dim>> materials;
     std::vector<NamedConstraint<dim>> constraints;
+    std::vector<NamedLoad<dim>> loads;
     bool consistent_mass  = true;
     double mass_tolerance = 1e-10;
+
+    FibreRule<dim> fibre_rule;
+
+    /// Names of stress_quantities() that the part's output has by element.
+    std::vector<std::string> element_fields;
 
     static void declare_parameters(dealii::ParameterHandler &prm);
 
@@ -51,7 +68,7 @@ namespace mitre::structure
 
   /**
    * A deformable body that a finite element mesh describes: its reference configuration,
-   * materials and constraints, and which rank owns which of its nodes.
+   * materials, constraints and loads, and which rank owns which of its nodes.
    *
    * Fields on its nodes (positions X [cm], velocities, force densities) are distributed
    * vectors without ghost entries, made by initialize_vector(), with component c of node
@@ -70,7 +87,8 @@ namespace mitre::structure
     /**
      * The nodes are dealt out in equal parts until distribute() is called. Throws
      * base::UserError if a material id of the mesh has no material or two, a material
-     * has no elements, an element is inverted or a law lacks its fibres.
+     * has no elements, an element is inverted, a law lacks its fibres, a constraint or
+     * load has nothing to act on, or quadratic simplices shall have a lumped mass matrix.
      */
     Body(BodyParameters<dim> parameters, Mesh<dim> mesh, const MPI_Comm communicator);
 
@@ -113,9 +131,24 @@ namespace mitre::structure
       return mass_matrix_;
     }
 
+    const std::vector<Material<dim>> &materials() const
+    {
+      return parameters.materials;
+    }
+
+    const std::vector<std::string> &element_fields() const
+    {
+      return parameters.element_fields;
+    }
+
     const std::vector<NamedConstraint<dim>> &constraints() const
     {
       return parameters.constraints;
+    }
+
+    const std::vector<NamedLoad<dim>> &loads() const
+    {
+      return parameters.loads;
     }
 
     /**
@@ -146,7 +179,7 @@ namespace mitre::structure
     /// The rank that owns each node of the mesh.
     std::vector<unsigned int> node_owners() const;
 
-    /// Elastic part of the last compute_force_density(), with which the next one starts
+    /// Projected part of the last compute_force_density(), with which the next one starts
     /// its iteration: a part of the state of a run.
     const VectorType &elastic_force_density() const
     {
@@ -163,13 +196,38 @@ namespace mitre::structure
      * Nodal elastic forces @f$G_a = -\int_U P\,\nabla_s\phi_a\,ds@f$ [dyn]. Collective.
      * Throws base::UserError on all ranks if an element is inverted; it names part,
      * element, centroid and time.
+     *
+     * @param material take only the elements of the material with this index
      */
-    void compute_elastic_force(const VectorType &X, const double t, VectorType &G) const;
+    void compute_elastic_force(
+      const VectorType &X,
+      const double t,
+      VectorType &G,
+      const unsigned int material = dealii::numbers::invalid_unsigned_int) const;
+
+    /**
+     * Nodal forces of loads, and of constraints as far as these are forces rather than
+     * densities [dyn]. Collective.
+     *
+     * @param which take only one: constraints are numbered first, then loads
+     */
+    void compute_external_forces(
+      const VectorType &X,
+      const VectorType &U,
+      const double t,
+      VectorType &G,
+      const unsigned int which = dealii::numbers::invalid_unsigned_int) const;
+
+    /// The sum of the forces of all constraints and loads [dyn]. Collective.
+    dealii::Tensor<1, dim> compute_total_external_force(const VectorType &X,
+                                                        const VectorType &U,
+                                                        const double t) const;
 
     /**
      * Nodal values of the Lagrangian force density per reference volume [dyn/cm^dim]:
-     * elastic, projected by the mass matrix (2.36), plus that of the constraints. The
-     * elastic part of the previous call serves as start of the iteration.
+     * nodal forces, elastic and external, projected by the mass matrix (2.36), plus the
+     * densities of constraints. The projected part of the previous call serves as start
+     * of the iteration.
      */
     void compute_force_density(const VectorType &X,
                                const VectorType &U,
@@ -184,6 +242,34 @@ namespace mitre::structure
 
     /// @f$\int_U F\, ds@f$ [dyn] of a nodal force density. Collective.
     dealii::Tensor<1, dim> compute_total(const VectorType &F) const;
+
+    /**
+     * Call @p function with each quadrature point of the elastic force, in the order of
+     * the elements, on one rank only. Collective, as positions are exchanged first.
+     *
+     * Where the change of volume is projected, the volumetric stress is that of the
+     * projection.
+     *
+     * @param function takes the index of the material, the number of the element in the
+     * mesh, weight times reference Jacobian [cm^dim] and the state
+     */
+    void
+    for_each_point(const VectorType &X,
+                   const double t,
+                   const std::function<void(const unsigned int,
+                                            const unsigned int,
+                                            const double,
+                                            const StressState<dim> &)> &function) const;
+
+    /**
+     * The values of quantities by element of the mesh and component, on all ranks. They
+     * are those of the means over the reference volume of the element, see
+     * StressState::add(). Collective.
+     */
+    std::vector<std::vector<double>>
+    compute_element_fields(const std::vector<std::string> &names,
+                           const VectorType &X,
+                           const double t) const;
 
     /// Strain energy [erg in 3D]. Collective.
     double compute_elastic_energy(const VectorType &X, const double t) const;
@@ -205,7 +291,12 @@ namespace mitre::structure
     /// Copy of @p X in which ghost nodes are known too.
     const double *import_positions(const VectorType &X) const;
 
-    std::vector<MaterialRange<dim>> material_ranges(const double t) const;
+    /// Whether there is a load, or a constraint that gives nodal forces.
+    bool has_external_forces() const;
+
+    std::vector<MaterialRange<dim>> material_ranges(
+      const double t,
+      const unsigned int material = dealii::numbers::invalid_unsigned_int) const;
 
     BodyParameters<dim> parameters;
     const Mesh<dim> mesh_;
@@ -222,9 +313,9 @@ namespace mitre::structure
     };
     std::vector<Range> ranges;
 
-    mutable VectorType ghosted_positions;
+    mutable VectorType ghosted_positions, ghosted_velocities;
     mutable std::vector<double> local_forces;
-    VectorType elastic_force, elastic_density;
+    VectorType elastic_force, external_force, elastic_density;
   };
 } // namespace mitre::structure
 

@@ -33,6 +33,17 @@ namespace mitre::structure
     std::vector<double> JxW;
 
     std::vector<Fibres<dim>> fibres;
+
+    /**
+     * The functions @f$\psi_k@f$ to which the change of volume may be projected in an
+     * element: a constant for linear hypercubes and quadratic simplices, linear ones for
+     * quadratic hypercubes. volume_modes[q * n_volume_modes + k] at the points, and the
+     * inverse of @f$\int\psi_k\psi_l\,ds@f$ [1/cm^dim] at (i * n_volume_modes + k) *
+     * n_volume_modes + l. Linear simplices have none: their change of volume is constant.
+     */
+    unsigned int n_volume_modes = 0;
+    std::vector<double> volume_modes;
+    std::vector<double> inverse_volume_mass;
   };
 
 
@@ -45,12 +56,21 @@ namespace mitre::structure
 
     /// Multiplies energy and stress.
     double time_factor = 1;
+
+    /// Volumetric part of the law whose J shall be projected; null: none.
+    const VolumetricPart *projected_part = nullptr;
   };
 
 
   /**
    * Add @f$-\int_U P\, \nabla_s\phi_a\, ds@f$ (2.36) [dyn] to the nodes of a run of
-   * elements.
+   * elements. With a projected volumetric part, the energy U(J) of the law is replaced by
+   * @f$U(\tilde J)@f$ with the L2 projection @f$\tilde J@f$ of J to few functions an
+   * element, and @f$J U'(J) F^{-T}@f$ in P by @f$J \tilde p F^{-T}@f$ with the projection
+   * @f$\tilde p@f$ of @f$U'(\tilde J)@f$. Elements then have no more constraints of
+   * volume than they can satisfy. On parallelepipeds that is selective reduced
+   * integration (Malkus and Hughes (1978), CMAME 15); on others it passes the patch test,
+   * which reduced integration fails.
    *
    * @param positions node positions by local node and component [cm]
    * @param forces the same layout
@@ -77,6 +97,19 @@ namespace mitre::structure
                                 const MaterialRange<dim> &range,
                                 const double t,
                                 const double *positions);
+
+
+  /**
+   * Kirchhoff pressures @f$J_q \tilde p_q@f$ [dyn/cm^2] of a projected volumetric part at
+   * the points of local element @p i, from the J at these. Returns the volumetric energy
+   * of the element [dyn cm^(dim-2)]. Both are without the time factor.
+   */
+  template <int dim>
+  double project_volumetric_part(const ReferenceCache<dim> &cache,
+                                 const VolumetricPart &part,
+                                 const unsigned int i,
+                                 const double *J,
+                                 double *pressures);
 
 
   /// @f$F = \sum_a X_a \otimes \nabla_s\phi_a@f$ at point @p q of local element @p i.

@@ -4,6 +4,7 @@
 #include <mitre/base/plugin_registry.h>
 #include <mitre/structure/constitutive_laws/constitutive_law.h>
 #include <mitre/structure/constraints/constraint.h>
+#include <mitre/structure/loads/load.h>
 
 namespace mitre::structure
 {
@@ -15,6 +16,11 @@ namespace mitre::structure
   /// The constraints by the names that parameter files use.
   template <int dim>
   const base::PluginRegistry<Constraint<dim>> &constraints();
+
+
+  /// The loads by the names that parameter files use.
+  template <int dim>
+  const base::PluginRegistry<Load<dim>> &loads();
 } // namespace mitre::structure
 
 #endif

@@ -8,16 +8,16 @@
 #include <vector>
 
 #include <mitre/base/expression.h>
-#include <mitre/base/time_table.h>
 #include <mitre/structure/constitutive_laws/constitutive_law.h>
+#include <mitre/structure/time_function.h>
 
 namespace mitre::structure
 {
   /**
-   * What multiplies energy and stress of a material over time, whatever its law: an
-   * expression of t [s] or a column of a time table. By default 1.
+   * What multiplies energy and stress of a material over time, whatever its law. By
+   * default 1.
    */
-  class StiffnessFactor
+  class StiffnessFactor : public TimeFunction
   {
   public:
     StiffnessFactor();
@@ -28,16 +28,6 @@ namespace mitre::structure
 
     /// @param what the material, for messages. Throws base::UserError, which names it.
     void parse_parameters(dealii::ParameterHandler &prm, const std::string &what);
-
-    double value(const double t) const;
-
-  private:
-    base::TimeExpression expression;
-
-    /// Takes the place of the expression if there is one.
-    std::shared_ptr<const base::TimeTable> table;
-
-    unsigned int column = 0;
   };
 
 
@@ -54,6 +44,10 @@ namespace mitre::structure
     /// Multiplies energy and stress.
     StiffnessFactor time_factor;
 
+    /// Whether the volumetric part of the law sees a projection of J, see
+    /// compute_elastic_force().
+    bool project_volume = true;
+
     /// Declare the law, its constants and the time factor, not the ids, in the subsection
     /// of the material.
     static void declare_parameters(dealii::ParameterHandler &prm);
@@ -61,6 +55,20 @@ namespace mitre::structure
     /// @param what the material, for messages. Throws base::UserError, which names it.
     void parse_parameters(dealii::ParameterHandler &prm, const std::string &what);
   };
+
+
+  /**
+   * Shear modulus [dyn/cm^2] of a law in its reference configuration, by central
+   * differences of the stress (relative error about 1e-6 for smooth laws): the smallest
+   * of those in the coordinate planes, with fibres along the first axis and, for a second
+   * family, the second one.
+   */
+  template <int dim>
+  double compute_shear_modulus(const ConstitutiveLaw<dim> &law);
+
+
+  /// @f$\kappa = 2 G (1 + \nu)/(3 (1 - 2\nu))@f$, Vadala-Roth et al. (2020), CMAME 365.
+  double bulk_modulus_of(const double shear_modulus, const double poisson_ratio);
 } // namespace mitre::structure
 
 #endif

@@ -52,6 +52,11 @@ namespace mitre::structure
 
     std::vector<unsigned int> material_ids;
 
+    /// Elements of one dimension less that the file gives a physical id, by their corners
+    /// (in any order; dim of simplices, 2^(dim-1) of hypercubes), and these ids.
+    std::vector<unsigned int> boundary_elements;
+    std::vector<unsigned int> boundary_ids;
+
     /// Directions by family and element; a family without directions is empty.
     std::array<std::vector<dealii::Tensor<1, dim>>, max_fibre_families> fibres;
 

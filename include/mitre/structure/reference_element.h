@@ -6,6 +6,7 @@
 #include <deal.II/base/tensor.h>
 
 #include <memory>
+#include <type_traits>
 
 #include <mitre/structure/mesh.h>
 
@@ -18,8 +19,8 @@ namespace dealii
 namespace mitre::structure
 {
   /**
-   * The Lagrangian shape functions @f$\phi_a(\xi)@f$ of one shape and degree on the
-   * reference cell (unit simplex or unit cube).
+   * The Lagrangian shape functions @f$\phi_a(\xi)@f$ of one shape and degree (1 or 2) on
+   * the reference cell (unit simplex or unit cube).
    */
   template <int dim>
   class ReferenceElement
@@ -29,6 +30,9 @@ namespace mitre::structure
     ~ReferenceElement();
 
     unsigned int n_nodes() const;
+
+    /// Where the nodes are, @f$\phi_a(\xi_b) = \delta_{ab}@f$.
+    const std::vector<dealii::Point<dim>> &nodes() const;
 
     double value(const unsigned int a, const dealii::Point<dim> &xi) const;
 
@@ -56,6 +60,27 @@ namespace mitre::structure
     dealii::Quadrature<dim> force_rule;
     dealii::Quadrature<dim> mass_rule;
   };
+
+
+  /// Call @p function with the number of nodes of an element of degree 1 or 2 as a
+  /// constant, so that loops over them can be unrolled.
+  template <int dim, typename Function>
+  void with_n_nodes(const unsigned int n_nodes, const Function &function)
+  {
+    switch (n_nodes)
+      {
+        case dim + 1:
+          return function(std::integral_constant<int, dim + 1>());
+        case (1 << dim):
+          return function(std::integral_constant<int, (1 << dim)>());
+        case (dim + 1) * (dim + 2) / 2:
+          return function(std::integral_constant<int, (dim + 1) * (dim + 2) / 2>());
+        case (dim == 2 ? 9 : 27):
+          return function(std::integral_constant<int, (dim == 2 ? 9 : 27)>());
+        default:
+          AssertThrow(false, dealii::ExcNotImplemented());
+      }
+  }
 
 
   /**

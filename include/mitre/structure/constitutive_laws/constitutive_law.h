@@ -9,6 +9,9 @@
 
 namespace mitre::structure
 {
+  struct VolumetricPart;
+
+
   /**
    * A hyperelastic law: the strain energy @f$W(F)@f$ per reference volume [dyn/cm^2] and
    * the first Piola-Kirchhoff stress @f$P = \partial W/\partial F@f$ [dyn/cm^2], with the
@@ -35,6 +38,18 @@ namespace mitre::structure
     virtual bool is_stress_free_in_reference() const
     {
       return true;
+    }
+
+    /// The volumetric part of the law, if it has one: its energy U(J) is a summand of
+    /// energy(), so that it can be integrated by a rule of its own.
+    virtual VolumetricPart *volumetric_part()
+    {
+      return nullptr;
+    }
+
+    const VolumetricPart *volumetric_part() const
+    {
+      return const_cast<ConstitutiveLaw<dim> *>(this)->volumetric_part();
     }
 
     /// @f$W(F)@f$ [dyn/cm^2]; fibres as in the mesh, t [s].

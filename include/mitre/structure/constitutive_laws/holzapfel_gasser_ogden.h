@@ -30,6 +30,11 @@ namespace mitre::structure
 
     void parse_parameters(dealii::ParameterHandler &prm) override;
 
+    VolumetricPart *volumetric_part() override
+    {
+      return &volumetric;
+    }
+
     unsigned int n_fibre_families() const override
     {
       return 2;

@@ -22,6 +22,11 @@ namespace mitre::structure
 
     void parse_parameters(dealii::ParameterHandler &prm) override;
 
+    VolumetricPart *volumetric_part() override
+    {
+      return &volumetric;
+    }
+
     bool is_stress_free_in_reference() const override
     {
       return volumetric.is_stress_free_in_reference();

@@ -62,6 +62,11 @@ namespace mitre::structure
 
     void parse_parameters(dealii::ParameterHandler &prm) override;
 
+    VolumetricPart *volumetric_part() override
+    {
+      return &matrix.volumetric;
+    }
+
     bool is_stress_free_in_reference() const override
     {
       return matrix.volumetric.is_stress_free_in_reference();

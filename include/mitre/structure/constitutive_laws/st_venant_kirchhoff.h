@@ -24,6 +24,11 @@ namespace mitre::structure
 
     void parse_parameters(dealii::ParameterHandler &prm) override;
 
+    VolumetricPart *volumetric_part() override
+    {
+      return &volumetric;
+    }
+
     double energy_at(const Deformation<dim> &point) const
     {
       const double scale             = volumetric.scale(point.J);

@@ -35,6 +35,11 @@ namespace mitre::structure
 
     void parse_parameters(dealii::ParameterHandler &prm) override;
 
+    VolumetricPart *volumetric_part() override
+    {
+      return &matrix.volumetric;
+    }
+
     unsigned int n_fibre_families() const override
     {
       return 1;

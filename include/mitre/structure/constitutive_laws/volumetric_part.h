@@ -74,40 +74,47 @@ namespace mitre::structure
       Number energy = 0.;
       if (stress_free && !isochoric_split && p0 != 0)
         energy -= p0 * log(J);
+      return energy + bulk_energy(J);
+    }
+
+    /// @f$U(J)@f$ [dyn/cm^2]
+    template <typename Number>
+    Number bulk_energy(const Number &J) const
+    {
+      using std::log;
       if (bulk_modulus != 0)
         switch (form)
           {
             case Energy::log_squared:
-              energy += 0.5 * bulk_modulus * log(J) * log(J);
-              break;
+              return 0.5 * bulk_modulus * log(J) * log(J);
             case Energy::quadratic:
-              energy += 0.5 * bulk_modulus * (J - 1.) * (J - 1.);
-              break;
+              return 0.5 * bulk_modulus * (J - 1.) * (J - 1.);
             case Energy::simo_taylor:
-              energy += 0.25 * bulk_modulus * (J * J - 1. - 2. * log(J));
-              break;
+              return 0.25 * bulk_modulus * (J * J - 1. - 2. * log(J));
           }
-      return energy;
+      return Number(0.);
     }
 
     /// J times the derivative of energy() [dyn/cm^2]: the factor of @f$F^{-T}@f$ in P.
     double kirchhoff_pressure(const double J, const double p0) const
     {
-      double factor = stress_free && !isochoric_split ? -p0 : 0;
+      return (stress_free && !isochoric_split ? -p0 : 0) + bulk_kirchhoff_pressure(J);
+    }
+
+    /// @f$J U'(J)@f$ [dyn/cm^2]
+    double bulk_kirchhoff_pressure(const double J) const
+    {
       if (bulk_modulus != 0)
         switch (form)
           {
             case Energy::log_squared:
-              factor += bulk_modulus * std::log(J);
-              break;
+              return bulk_modulus * std::log(J);
             case Energy::quadratic:
-              factor += bulk_modulus * J * (J - 1);
-              break;
+              return bulk_modulus * J * (J - 1);
             case Energy::simo_taylor:
-              factor += 0.5 * bulk_modulus * (J * J - 1);
-              break;
+              return 0.5 * bulk_modulus * (J * J - 1);
           }
-      return factor;
+      return 0;
     }
 
     /**

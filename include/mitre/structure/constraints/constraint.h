@@ -7,6 +7,7 @@
 #include <string>
 
 #include <mitre/structure/node_numbering.h>
+#include <mitre/structure/regions.h>
 
 namespace mitre::structure
 {
@@ -14,7 +15,11 @@ namespace mitre::structure
 
 
   /**
-   * A force that keeps nodes of a body near where they shall be.
+   * A force that keeps nodes of a body near where they shall be. Unlike a Load it knows
+   * where that is, so that a run can tell how far it gives way.
+   *
+   * The force is a density at the nodes, or a sum of nodal forces, which is projected
+   * together with the elastic one.
    */
   template <int dim>
   class Constraint
@@ -25,6 +30,11 @@ namespace mitre::structure
     /// @param what names the constraint in messages: "Part tube, constraint hold"
     virtual void parse_parameters(dealii::ParameterHandler &prm,
                                   const std::string &what) = 0;
+
+    /// Find out what does not depend on ranks; called once, before reinit().
+    virtual void initialize(const Mesh<dim> &)
+    {
+    }
 
     /// Find the owned nodes on which the constraint acts; called again when the nodes
     /// have been distributed anew.
@@ -41,6 +51,18 @@ namespace mitre::structure
                                    const VectorType &U,
                                    const double t,
                                    VectorType &F) const = 0;
+
+    /// Whether add_forces() has something to add.
+    virtual bool has_nodal_forces() const
+    {
+      return false;
+    }
+
+    /// Add to the nodal forces [dyn] by local node and component. Those of nodes that are
+    /// not owned are of no use.
+    virtual void add_forces(const NodalState &, double *) const
+    {
+    }
 
     /// The largest distance of an owned node from where it shall be [cm].
     virtual double largest_displacement(const VectorType &X, const double t) const = 0;
