@@ -3,7 +3,7 @@
 message that says what, where and when, and what to try. What has been written until then can
 be read, and the run goes on from its newest checkpoint. More ranks than patches are no fault.
 
-usage: faults_stop_the_run.py MITRE WORK_FOLDER
+usage: faults_stop_the_run.py MITRE WORK_FOLDER [CASE...]
 """
 
 import glob
@@ -17,7 +17,7 @@ import time
 
 import resume_case as case
 
-program, folder = os.path.abspath(sys.argv[1]), sys.argv[2]
+program, folder, chosen = os.path.abspath(sys.argv[1]), sys.argv[2], sys.argv[3:]
 shutil.rmtree(folder, ignore_errors=True)
 os.makedirs(folder)
 os.chdir(folder)
@@ -31,7 +31,7 @@ def fail(name, text):
 
 
 def write(name, change=(), **changes):
-    case.write_parameters(name, **dict(dict(period="2", kept="2", statistics="1"), **changes))
+    case.write_parameters(name, **dict(dict(period="10", kept="2", statistics="1", fields="0.04"), **changes))
     with open(name + ".prm") as file:
         text = file.read()
     for old, new in change:
@@ -60,6 +60,8 @@ def check_files(name):
 
 def check_checkpoint(name):
     """The newest checkpoint can be read: the run is at its end there."""
+    if os.path.isfile(name + "/output"):
+        os.remove(name + "/output")
     last = case.checkpoints(name)[-1]
     with open(last + "/manifest.txt") as file:
         end = [line.split()[1] for line in file if line.startswith("time")][0]
@@ -74,7 +76,7 @@ def check_checkpoint(name):
 
 def expect(name, words, ranks=(1, 2), change=(), meddle=None, checkpoint=True, **changes):
     """MEDDLE(process, folder) is called when the run has left its first checkpoint."""
-    for n in ranks:
+    for n in ranks if name in chosen or not chosen else ():
         run = "%s_%d" % (name.replace(" ", "_"), n)
         write(run, change, **changes)
         begin = time.time()
@@ -123,30 +125,36 @@ expect("not finite", ["mitre:", "too large"] + saved,
        change=[("set C1 = 5", "set C1 = 5\n      end\n      set Time factor = "
                 "if(t < 0.05, 1, 1e300)\n      subsection neo-Hookean")])
 
-# An expression that has no value in a part of the box, which one of two ranks has; the other
-# waits for it in vain.
+# An expression that for a short time has no value in a part of the box, which one of two ranks
+# has; the other waits for it in vain. (The look at the conditions before the first step is at
+# other times.)
 expect("no value", ["mitre: Boundary conditions / outlet / Pressure", "The run stops in step",
                     "The newest checkpoint is"],
        change=[("set Type  = pressure", "set Type  = pressure\n    set Pressure = "
-                "if(t > 0.05 && y > 0.5, 1/(t-t), 0)")])
+                "if(abs(t - 0.0504) > 1e-4 && abs(t - 0.0504) < 2.3e-3 && y > 0.5, 1/(t-t), 0)")])
 
 # Elements of a tissue without stiffness are turned inside out where the flow bends.
 expect("inverted element", ["Part block", "element", "inside out", "at time", "centroid",
-                            "A smaller time step"] + saved, ranks=(1, 2),
-       change=[("set C1 = 5", "set C1 = 1e-6"), ("stiffness", "stiffness"),
+                            "A smaller time step"] + saved,
+       change=[("set C1 = 5", "set C1 = 1e-6"), ("set Pressure = 20", "set Pressure = 0"),
+               ("set Viscosity = 0.05", "set Viscosity = 1e-3"),
                ("set Initial velocity x = 4*y*(1-y)",
-                "set Initial velocity x = 20*sin(20*pi*y)*sin(pi*x)")], stiffness="0", dt="2e-3",
-       end="2", fields="0")
+                "set Initial velocity x = 4*sin(10*pi*x)*cos(10*pi*y)\n"
+                "  set Initial velocity y = -4*cos(10*pi*x)*sin(10*pi*y)")], stiffness="0",
+       dt="2e-3", end="2")
 
 # Nothing holds the part, which is carried out of the box.
 expect("part leaves", ["Part block", "outside of the fluid's box"] + saved,
-       change=[("set Pressure = 20", "set Pressure = 400")], stiffness="0", end="4", dt="2e-3",
-       fields="0", period="50")
+       change=[("set Pressure = 20", "set Pressure = 200"), ("Upper corner  = 2, 1",
+               "Upper corner  = 1, 1"), ("Base patches  = 2, 1", "Base patches  = 1, 1"),
+               ("set Maximum level = 3", "set Maximum level = 2")],
+       stiffness="0", end="4", courant="0.5")
 
 # The solver does not reach its tolerance.
 expect("solver fails", ["mitre: The velocity-pressure solver has not converged in 1 iterations",
                         "Try a smaller time step", "Relative tolerance"] + saved,
-       change=[("set Pressure = 20", "set Pressure = 20 + 1e3*(t > 0.05)*sin(1e3*t)"),
+       change=[("set Pressure = 20", "set Pressure = 20*(t > 0.05)"),
+               ("set Initial velocity x = 4*y*(1-y)", ""),
                ("set Relative tolerance", "set Maximum iterations = 1\n    set Relative tolerance")])
 
 
@@ -171,10 +179,10 @@ def kill_a_rank(process, _):
 expect("dead rank", ["signal 9"], ranks=(2,), meddle=kill_a_rank, end="4", period="5")
 
 # More ranks than patches: the same as on one rank, up to round-off and tolerances.
-few = [("set Base patches  = 2, 1", "set Base patches = 1, 1"), ("set Minimum level = 1", ""),
+few = [("set Minimum level = 1", ""),
        ("set Maximum level = 3", "set Maximum level = 0")]
 results = {}
-for ranks in (1, 3):
+for ranks in (1, 3) if "few patches" in chosen or not chosen else ():
     run = "few_patches_%d" % ranks
     write(run, few, end="0.08", tolerance="1e-10")
     status = subprocess.run(case.command(program, run, ranks), capture_output=True, text=True,
@@ -192,7 +200,7 @@ if len(results) == 2:
     # time, cells, and all columns behind the divergence, which is round-off
     worst = max(abs(a - b) / (abs(a) + 1e-3) for one, other in zip(results[1], results[3])
                 for c, (a, b) in enumerate(zip(one, other)) if c in (0, 2) or c > 5)
-    print("one patch on 1 and 3 ranks: largest relative difference %.1e" % worst)
+    print("two patches on 1 and 3 ranks: largest relative difference %.1e" % worst)
     if len(results[1]) != 21 or not worst < 1e-6:
         fail("few patches", "%d lines, difference %g" % (len(results[1]), worst))
 
