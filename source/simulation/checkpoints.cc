@@ -147,7 +147,7 @@ namespace mitre::simulation
   void Simulation<dim>::check_parameters() const
   {
     const std::string changed = base::describe_changed_parameters(
-      resumed->parameters(), parameter_values, free_parameters);
+      resumed->parameters(), parameter_values, free_parameters, parameter_defaults);
     if (changed.empty())
       return;
     std::string text;

@@ -210,7 +210,10 @@ namespace mitre::simulation
       output_folder, schedule.n_kept(), communicator);
     io::call_together(communicator, [&]() {
       if (root)
-        parameter_values = base::list_parameter_values(prm);
+        {
+          parameter_values   = base::list_parameter_values(prm);
+          parameter_defaults = base::list_parameter_defaults(prm);
+        }
     });
     open_checkpoint(resume.empty() ? prm.get("Resume") : resume);
 

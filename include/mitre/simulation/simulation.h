@@ -187,7 +187,7 @@ namespace mitre::simulation
     long last_checkpoint_step = -1;
 
     /// Of all parameters (root).
-    std::map<std::string, std::string> parameter_values;
+    std::map<std::string, std::string> parameter_values, parameter_defaults;
 
     double start_time = 0., end_time, output_interval;
     double largest_time_step, smallest_time_step;
