@@ -31,7 +31,8 @@ namespace
     "over\n"
     "                       the parameter \"Resume\"\n"
     "  --validate           check the file and everything it names, say what was\n"
-    "                       understood, and stop before the first time step\n"
+    "                       understood and what a step costs (two are taken on trial),\n"
+    "                       and stop; nothing is written\n"
     "  --print-parameters   print all parameters with their defaults and explanations; "
     "if\n"
     "                       RUN.prm is given, those of its parts and conditions as well\n"
@@ -78,12 +79,20 @@ namespace
     const bool root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
     if (root)
       simulation.print_summary(std::cout);
+    std::ostream out(root ? std::cout.rdbuf() : nullptr);
     if (mode == Mode::validate)
       {
-        if (root)
-          std::cout << file << " is valid." << std::endl;
+        const std::size_t n = simulation.validate(out).size();
+        out << file << " is valid"
+            << (n == 0   ? ""
+                : n == 1 ? ", with a warning"
+                         : ", with " + std::to_string(n) + " warnings")
+            << "." << std::endl;
         return 0;
       }
+    std::ostream nowhere(nullptr);
+    for (const std::string &warning : simulation.check(nowhere).warnings)
+      out << "Warning: " << warning << std::endl;
     return simulation.run() ? 0 : stopped_before_end;
   }
 

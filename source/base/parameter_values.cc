@@ -40,16 +40,17 @@ namespace mitre::base
 
     void list(const Tree &tree,
               const std::string &prefix,
+              const std::string &what,
               std::map<std::string, std::string> &values)
     {
       for (const auto &[name, child] : tree)
         {
           const auto pattern = child.get_optional<std::string>("pattern_description");
           if (!pattern)
-            list(child, prefix + name + " / ", values);
+            list(child, prefix + name + " / ", what, values);
           else
             {
-              std::string value = child.get<std::string>("value");
+              std::string value = child.get<std::string>(what);
               if (*pattern == "[InputFile]" && !value.empty())
                 value += contents + sum_of_contents(value);
               for (char &c : value)
@@ -58,6 +59,20 @@ namespace mitre::base
               values[prefix + name] = value;
             }
         }
+    }
+
+
+    std::map<std::string, std::string> list(const dealii::ParameterHandler &prm,
+                                            const std::string &what)
+    {
+      std::ostringstream json;
+      prm.print_parameters(json, dealii::ParameterHandler::JSON);
+      std::istringstream input(json.str());
+      Tree tree;
+      boost::property_tree::read_json(input, tree);
+      std::map<std::string, std::string> values;
+      list(tree, "", what, values);
+      return values;
     }
 
 
@@ -92,21 +107,22 @@ namespace mitre::base
   std::map<std::string, std::string>
   list_parameter_values(const dealii::ParameterHandler &prm)
   {
-    std::ostringstream json;
-    prm.print_parameters(json, dealii::ParameterHandler::JSON);
-    std::istringstream input(json.str());
-    Tree tree;
-    boost::property_tree::read_json(input, tree);
-    std::map<std::string, std::string> values;
-    list(tree, "", values);
-    return values;
+    return list(prm, "value");
+  }
+
+
+  std::map<std::string, std::string>
+  list_parameter_defaults(const dealii::ParameterHandler &prm)
+  {
+    return list(prm, "default_value");
   }
 
 
   std::string
   describe_changed_parameters(const std::map<std::string, std::string> &before,
                               const std::map<std::string, std::string> &now,
-                              const std::set<std::string> &free)
+                              const std::set<std::string> &free,
+                              const std::map<std::string, std::string> &defaults)
   {
     const auto quote = [](const std::map<std::string, std::string> &values,
                           const std::string &name) {
@@ -118,7 +134,10 @@ namespace mitre::base
     std::string text;
     for (const auto &[name, value] : all)
       {
-        const auto a = before.find(name), b = now.find(name);
+        const auto a = before.find(name), b = now.find(name), c = defaults.find(name);
+        if (a == before.end() && b != now.end() && c != defaults.end() &&
+            agree(b->second, c->second))
+          continue;
         if (!is_free(name, free) &&
             (a == before.end() || b == now.end() || !agree(a->second, b->second)))
           text += (text.empty() ? "" : "\n") + name + ": was " + quote(before, name) +

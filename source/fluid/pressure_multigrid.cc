@@ -241,8 +241,9 @@ namespace mitre::fluid
     for (const auto &part : all)
       for (const Entry &entry : part)
         coarse_matrix.add(entry.row, entry.column, entry.value);
+    // A single closed patch has a diagonal of 0.
     if (singular)
-      coarse_matrix.diag_element(0) *= 2.;
+      coarse_matrix.diag_element(0) = size == 1 ? 1. : 2. * coarse_matrix.diag_element(0);
     coarse_inverse.initialize(coarse_matrix);
 
     std::vector<double> volumes(patch_grid.n_owned_patches(), 1.);

@@ -32,8 +32,12 @@ namespace mitre::simulation
                                                    "Fluid / Solver / Residual history"};
 
 
-    /// Ranks wait so long for each other after an error [s].
-    constexpr double patience = 20.;
+    /// Ranks wait so long for each other after an error [s]: those that meet it too are
+    /// some steps behind at most.
+    double patience(const double longest_step)
+    {
+      return longest_step > 0. ? 3. + 5. * longest_step : 20.;
+    }
 
 
     double wall_clock()
@@ -143,7 +147,7 @@ namespace mitre::simulation
   void Simulation<dim>::check_parameters() const
   {
     const std::string changed = base::describe_changed_parameters(
-      resumed->parameters(), parameter_values, free_parameters);
+      resumed->parameters(), parameter_values, free_parameters, parameter_defaults);
     if (changed.empty())
       return;
     std::string text;
@@ -425,7 +429,7 @@ namespace mitre::simulation
     while (true)
       {
         MPI_Test(&request, &done, MPI_STATUS_IGNORE);
-        if (done != 0 || wall_clock() - begin > patience)
+        if (done != 0 || wall_clock() - begin > patience(longest_step))
           return done != 0;
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
       }
@@ -442,18 +446,19 @@ namespace mitre::simulation
     courant_number  = before_step.courant_number;
     last_iterations = before_step.last_iterations;
     n_repeated      = before_step.n_repeated;
+
+    const std::string flow = "\nBefore this step " + describe_fastest_flow() + ".";
     try
       {
         write_checkpoint();
       }
     catch (const base::UserError &error)
       {
-        return std::string("\nThe state before this step could not be saved: ") +
-               error.what();
+        return flow + "\nThe state before this step could not be saved: " + error.what();
       }
     std::ostringstream text;
-    text << "\nThe state before this step, at t = " << current_time << " s after step "
-         << step_number << ", is in " << last_checkpoint << ".";
+    text << flow << "\nThe state before this step, at t = " << current_time
+         << " s after step " << step_number << ", is in " << last_checkpoint << ".";
     return text.str();
   }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include <mitre/base/exceptions.h>
 #include <mitre/base/parameters.h>
 #include <mitre/simulation/refinement.h>
 
@@ -71,10 +72,18 @@ namespace mitre::simulation
       {
         prm.enter_subsection("Box " + name);
         const std::string what = "Grid / Refinement / Box " + name;
+        const Point<dim> lower =
+          base::parse_point<dim>(prm.get("Lower corner"), what + " / Lower corner");
+        const Point<dim> upper =
+          base::parse_point<dim>(prm.get("Upper corner"), what + " / Upper corner");
+        for (unsigned int d = 0; d < dim; ++d)
+          AssertThrow(lower[d] < upper[d],
+                      base::UserError(what + ": \"Upper corner\" is " +
+                                      prm.get("Upper corner") +
+                                      ", but must be above \"Lower corner\", which is " +
+                                      prm.get("Lower corner") + ", in each direction."));
         Region region;
-        region.box = BoundingBox<dim>(
-          std::make_pair(base::parse_point<dim>(prm.get("Lower corner"), what),
-                         base::parse_point<dim>(prm.get("Upper corner"), what)));
+        region.box   = BoundingBox<dim>(std::make_pair(lower, upper));
         region.level = prm.get_integer("Level");
         regions.push_back(region);
         prm.leave_subsection();

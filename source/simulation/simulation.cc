@@ -211,7 +211,10 @@ namespace mitre::simulation
       output_folder, schedule.n_kept(), communicator);
     io::call_together(communicator, [&]() {
       if (root)
-        parameter_values = base::list_parameter_values(prm);
+        {
+          parameter_values   = base::list_parameter_values(prm);
+          parameter_defaults = base::list_parameter_defaults(prm);
+        }
     });
     open_checkpoint(resume.empty() ? prm.get("Resume") : resume);
 
@@ -308,6 +311,9 @@ namespace mitre::simulation
                                 std::to_string(finest) + ".");
         prm.leave_subsection();
 
+        if (body_parameters.mesh_file.empty())
+          throw base::UserError("Part " + name +
+                                ": the parameter \"Mesh file\" is not set.");
         structure::Mesh<dim> mesh =
           io::read_mesh<dim>(body_parameters.mesh_file, communicator);
         part.body = std::make_unique<structure::Body<dim>>(
@@ -325,7 +331,8 @@ namespace mitre::simulation
                   std::ostringstream message;
                   message << "Part " << name << ": a node of " << part.body->mesh().source
                           << " is at (" << node << ") cm, outside of the fluid box from ("
-                          << lower << ") to (" << upper << ") cm.";
+                          << lower << ") to (" << upper
+                          << ") cm. Are mesh and box both in cm?";
                   throw base::UserError(message.str());
                 }
             }
@@ -507,9 +514,9 @@ namespace mitre::simulation
     if (wanted_courant_number > 0.)
       message << ", and half of it would be shorter than the \"Smallest time step\" of "
               << smallest_time_step << " s";
-    message
-      << ". Usually the time step is too large for the stiffness of a part or of its "
-         "constraints; try half of it.";
+    message << "; " << describe_fastest_flow()
+            << ". Usually the time step is too large for the stiffness of a part or of "
+               "its constraints; try half of it.";
     throw base::UserError(message.str());
   }
 
@@ -724,10 +731,40 @@ namespace mitre::simulation
 
 
   template <int dim>
+  void Simulation<dim>::start()
+  {
+    const auto set_initial_velocity = [this]() {
+      fluid->set_velocity(
+        [this](const Point<dim> &x, const unsigned int c) {
+          return initial_velocity[c].value(x);
+        },
+        start_time);
+    };
+    current_time = start_time;
+    set_initial_velocity();
+    if (refinement.vorticity_change() > 0.)
+      for (unsigned int level = patch_grid->minimum_level();
+           level < patch_grid->maximum_level() && regrid();
+           ++level)
+        set_initial_velocity();
+    n_regrids     = 0;
+    step_number   = 0;
+    last_measured = start_time;
+    n_outputs     = 0;
+
+    // What instruments find wrong shall be known before any file is touched. No time
+    // passes, so that none of them adds anything up.
+    instruments.measure(observation());
+  }
+
+
+  template <int dim>
   bool Simulation<dim>::run_to_end()
   {
     schedule.begin();
     MPI_Comm_dup(communicator, &rescue_communicator);
+    if (!is_resumed)
+      start();
     prepare_output();
 
     const unsigned int n_steps = std::lround((end_time - start_time) / largest_time_step);
@@ -738,24 +775,6 @@ namespace mitre::simulation
 
     if (!is_resumed)
       {
-        const auto set_initial_velocity = [this]() {
-          fluid->set_velocity(
-            [this](const Point<dim> &x, const unsigned int c) {
-              return initial_velocity[c].value(x);
-            },
-            start_time);
-        };
-        current_time = start_time;
-        set_initial_velocity();
-        if (refinement.vorticity_change() > 0.)
-          for (unsigned int level = patch_grid->minimum_level();
-               level < patch_grid->maximum_level() && regrid();
-               ++level)
-            set_initial_velocity();
-        n_regrids     = 0;
-        step_number   = 0;
-        last_measured = start_time;
-        n_outputs     = 0;
         if (output_interval > 0.)
           {
             write_fields();
@@ -772,11 +791,16 @@ namespace mitre::simulation
       {
         try
           {
+            const double begin = wall_clock();
             advance();
+            longest_step = std::max(longest_step, wall_clock() - begin);
           }
         catch (const base::UserError &error)
           {
-            throw base::UserError(error.what() + rescue());
+            std::ostringstream when;
+            when << "\nThe run stops in step " << step_number + 1
+                 << ", which begins at t = " << current_time << " s.";
+            throw base::UserError(error.what() + when.str() + rescue());
           }
         iterations_since = std::max(iterations_since, last_iterations);
         ++steps_since;

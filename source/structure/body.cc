@@ -561,7 +561,14 @@ namespace mitre::structure
   unsigned int Body<dim>::project(VectorType &x, const VectorType &b) const
   {
     if (parameters.consistent_mass)
-      return mass_matrix_.solve(x, b, parameters.mass_tolerance);
+      try
+        {
+          return mass_matrix_.solve(x, b, parameters.mass_tolerance);
+        }
+      catch (const base::UserError &error)
+        {
+          throw base::UserError("Part " + name() + ": " + error.what());
+        }
 
     for (unsigned int i = 0; i < elements_.n_owned_nodes(); ++i)
       for (unsigned int c = 0; c < dim; ++c)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <mitre/base/exceptions.h>
 #include <mitre/structure/mass_matrix.h>
 
 namespace mitre::structure
@@ -142,7 +143,11 @@ namespace mitre::structure
     dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(squares, 2),
                                 comm,
                                 dealii::ArrayView<double>(squares, 2));
-    double rz           = squares[0];
+    double rz = squares[0];
+    if (!std::isfinite(rz))
+      throw base::UserError(
+        "forces or velocities at its nodes are infinite or undefined. "
+        "The time step is probably too large for its stiffness.");
     const double target = tolerance * tolerance * squares[1];
     if (squares[1] == 0)
       {
@@ -185,10 +190,9 @@ namespace mitre::structure
             p[i] = inverse_diagonal[row] * r[i] + beta * p[i];
         rz = rz_new;
       }
-    AssertThrow(false,
-                dealii::ExcMessage("The mass matrix solve did not converge; is the right "
-                                   "hand side finite?"));
-    return 0;
+    throw base::UserError("the mass matrix solve has not converged in 1000 iterations. A "
+                          "larger \"Mass solver tolerance\" or a mesh with better "
+                          "elements may help.");
   }
 
 

@@ -1,7 +1,8 @@
 // The values of all parameters are listed by their paths, files with the checksum of what
 // is in them; of two lists the differences are told: other texts and numbers, other
 // contents, parameters that are not in both, but not other ways to write a number, other
-// names of the same file, and what may differ.
+// names of the same file, and what may differ. A parameter that was not there before and
+// has its default now, because the program has learnt it since, does not differ.
 
 #include <fstream>
 #include <iostream>
@@ -60,4 +61,24 @@ main()
   show("another mesh", first + "\nsubsection Part A\nset Mesh (file) = c.msh\nend");
   show("no mesh", first + "\nsubsection Part A\nset Mesh (file) =\nend");
   show("another part", "set Parts = B\n");
+
+  // The list of an older program, which did not know a parameter.
+  auto older = values;
+  older.erase("Part A / Stiffness");
+  for (const std::string value : {"0.001", "0.002"})
+    {
+      ParameterHandler prm;
+      prm.enter_subsection("Part A");
+      prm.declare_entry("Stiffness", "1e-3", dealii::Patterns::Double());
+      prm.leave_subsection();
+      auto now                  = values;
+      now["Part A / Stiffness"] = value;
+      std::cout << "a new parameter, " << value << ":\n"
+                << describe_changed_parameters(
+                     older, now, {}, list_parameter_defaults(prm))
+                << std::endl;
+    }
+  older["Old"] = "1";
+  std::cout << "a parameter of old:\n"
+            << describe_changed_parameters(older, values, {}, values) << std::endl;
 }

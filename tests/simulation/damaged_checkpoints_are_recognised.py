@@ -9,6 +9,7 @@ usage: damaged_checkpoints_are_recognised.py MITRE WORK_FOLDER
 import os
 import shutil
 import sys
+import zlib
 
 import resume_case as case
 
@@ -79,6 +80,35 @@ case.run(program, "through", **dict(short, dt="0.008", end="0.16", fields="0.04"
                                     statistics="1"))
 check("parameters that may change", len(case.checkpoints("through")) == 2
       and case.statistics("through")[-1][0] == "0.16", case.checkpoints("through"))
+
+# A checkpoint of a program that did not know a parameter: taken if it has its default now.
+def forget(checkpoint, start):
+    """Removes the line that begins with START from the list of parameters."""
+    with open(checkpoint + "/parameters.txt") as file:
+        lines = file.readlines()
+    kept = [line for line in lines if not line.startswith(start)]
+    assert len(kept) == len(lines) - 1, start
+    data = "".join(kept).encode()
+    with open(checkpoint + "/parameters.txt", "wb") as file:
+        file.write(data)
+    with open(checkpoint + "/manifest.txt") as file:
+        lines = file.readlines()[:-1]
+    text = "".join("file parameters.txt %d %08x\n" % (len(data), zlib.crc32(data))
+                   if line.startswith("file parameters.txt") else line for line in lines)
+    with open(checkpoint + "/manifest.txt", "w") as file:
+        file.write(text + "checksum %08x\n" % zlib.crc32(text.encode()))
+
+
+for name, line, good in (("at its default", "Fluid / Density = ", True),
+                         ("not at its default", "Fluid / Viscosity = ", False)):
+    shutil.rmtree("older", ignore_errors=True)
+    shutil.copytree("through", "older")
+    forget(case.checkpoints("older")[-1], line)
+    text = case.run(program, "older", status=0 if good else 1,
+                    **dict(short, end="0.176", fields="0"))
+    words = "resumed from " if good else line.split(" =")[0] + ': was no parameter, is now "'
+    check("older checkpoint, new parameter " + name, words in text,
+          words if words in text else text[-600:])
 
 # Resume = never
 kept = sorted(os.listdir("through/checkpoints"))

@@ -17,6 +17,10 @@ namespace mitre::base
   std::map<std::string, std::string>
   list_parameter_values(const dealii::ParameterHandler &prm);
 
+  /** The defaults of all parameters by their path. */
+  std::map<std::string, std::string>
+  list_parameter_defaults(const dealii::ParameterHandler &prm);
+
 
   /**
    * A line for each parameter that differs, "Time / Time step: was 0.001, is now 0.002";
@@ -24,11 +28,14 @@ namespace mitre::base
    *
    * @param free parameters that may differ; a name that ends with " / " stands for all of
    * its section
+   * @param defaults of the parameters now: one that has its default now and was not there
+   * before does not differ, for the program has learnt it since
    */
   std::string
   describe_changed_parameters(const std::map<std::string, std::string> &before,
                               const std::map<std::string, std::string> &now,
-                              const std::set<std::string> &free);
+                              const std::set<std::string> &free,
+                              const std::map<std::string, std::string> &defaults = {});
 } // namespace mitre::base
 
 #endif

@@ -19,6 +19,7 @@
 #include <mitre/io/statistics_file.h>
 #include <mitre/simulation/checkpoint_schedule.h>
 #include <mitre/simulation/refinement.h>
+#include <mitre/simulation/validation.h>
 #include <mitre/structure/body.h>
 
 namespace mitre::simulation
@@ -63,6 +64,21 @@ namespace mitre::simulation
 
     /// What the run will consist of: parts, materials, sizes, levels, steps.
     void print_summary(std::ostream &out) const;
+
+    /**
+     * Looks at parts, grid and boundary conditions for what cannot work or is seldom
+     * meant, and writes to @p out what it has understood. Quick, and changes nothing.
+     * Collective; what rank 0 finds and writes counts.
+     */
+    Findings check(std::ostream &out) const;
+
+    /**
+     * check(), the longest stable steps of explicit forces, whether the output folder can
+     * be written, and two steps on trial, which tell time and memory; nothing is written.
+     * Warnings go to @p out and are returned. After this the object is of no further use.
+     * Collective. Throws base::UserError with all errors.
+     */
+    std::vector<std::string> validate(std::ostream &out);
 
     /**
      * Runs from the start, or from the checkpoint, to the end time. Returns false if the
@@ -125,7 +141,13 @@ namespace mitre::simulation
     std::string rescue();
     bool all_ranks_are_here() const;
 
+    // in diagnosis.cc
+    /// Where the flow is fastest and which node is nearest, for messages: "the flow is
+    /// fastest, ...". Collective.
+    std::string describe_fastest_flow() const;
+
     bool run_to_end();
+    void start();
     void prepare_output();
     void read_parts(dealii::ParameterHandler &prm);
     std::function<int(const dealii::BoundingBox<dim> &)> wanted_levels();
@@ -165,7 +187,7 @@ namespace mitre::simulation
     long last_checkpoint_step = -1;
 
     /// Of all parameters (root).
-    std::map<std::string, std::string> parameter_values;
+    std::map<std::string, std::string> parameter_values, parameter_defaults;
 
     double start_time = 0., end_time, output_interval;
     double largest_time_step, smallest_time_step;
@@ -203,6 +225,9 @@ namespace mitre::simulation
     double statistics_clock = 0.;
 
     StepState before_step;
+
+    /// Wall time of the longest step of this program so far [s].
+    double longest_step = 0.;
 
     /// For all_ranks_are_here().
     MPI_Comm rescue_communicator = MPI_COMM_NULL;
