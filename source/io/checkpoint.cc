@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
@@ -192,18 +193,20 @@ namespace mitre::io
           line >> kind >> n;
           line.get();
           std::getline(line, name);
-          at                      = end + 1;
-          const bool is_text      = kind == "text";
-          const std::size_t bytes = is_text ? n : n * sizeof(double);
+          at                 = end + 1;
+          const bool is_text = kind == "text";
+          // n first, for a damaged one times the size of a number may be small again.
           if (end == std::string::npos || (!is_text && kind != "numbers") ||
-              bytes > text.size() - at)
+              n > text.size() - at || (!is_text && n * sizeof(double) > text.size() - at))
             throw UserError(file + " is not understood.");
+          const std::size_t bytes = is_text ? n : n * sizeof(double);
           if (is_text)
             state.texts[name] = text.substr(at, n);
           else
             {
               state.numbers[name].resize(n);
-              std::memcpy(state.numbers[name].data(), text.data() + at, bytes);
+              if (n > 0)
+                std::memcpy(state.numbers[name].data(), text.data() + at, bytes);
             }
           at += bytes + 1;
         }
@@ -300,13 +303,18 @@ namespace mitre::io
 
       const std::string grid = read_all(path + "/grid.bin");
       std::uint64_t n_leaves = 0;
+      bool too_many          = false; // so that the sum cannot overflow
       for (const std::uint64_t n : owner_counts)
-        n_leaves += n;
-      if (grid.size() != n_leaves * 4 * sizeof(std::int32_t))
+        {
+          too_many = too_many || n > grid.size();
+          n_leaves += n;
+        }
+      if (too_many || grid.size() != n_leaves * 4 * sizeof(std::int32_t))
         throw UserError(path + "/grid.bin does not have the " + std::to_string(n_leaves) +
                         " leaves that the manifest tells of.");
       std::vector<std::int32_t> entries(n_leaves * 4);
-      std::memcpy(entries.data(), grid.data(), grid.size());
+      if (n_leaves > 0)
+        std::memcpy(entries.data(), grid.data(), grid.size());
       for (std::uint64_t i = 0; i < n_leaves; ++i)
         leaves_.push_back(
           {entries[4 * i],
@@ -362,7 +370,7 @@ namespace mitre::io
             File file;
             std::string crc;
             lines >> file.name >> file.size >> crc;
-            file.sum = std::stoul(crc, nullptr, 16);
+            file.sum = std::strtoul(crc.c_str(), nullptr, 16);
             files.push_back(file);
           }
         std::getline(lines, line);

@@ -20,6 +20,9 @@ namespace mitre::io
   {
     using structure::ElementShape;
 
+    /// Of materials, which are 32-bit numbers.
+    constexpr unsigned int largest_id = 2147483647;
+
     /// What a number of gmsh's list of element types means, as far as it matters here.
     struct ElementType
     {
@@ -235,6 +238,9 @@ namespace mitre::io
             for (unsigned long k = 0; k < n_tags; ++k)
               {
                 const unsigned long value = scanner.integer("a tag");
+                if (k == 0 && value > largest_id)
+                  scanner.fail("physical ids are at most " + std::to_string(largest_id) +
+                               ", found " + std::to_string(value) + ".");
                 if (k == 0)
                   material_id = value;
               }
@@ -261,10 +267,13 @@ namespace mitre::io
             const unsigned long n_ids = scanner.integer("a number of physical ids");
             for (unsigned long k = 0; k < n_ids; ++k)
               {
-                const double id = scanner.number("a physical id");
+                // negative where the entity is turned round
+                const double id = std::abs(scanner.number("a physical id"));
+                if (id > largest_id)
+                  scanner.fail("physical ids are at most " + std::to_string(largest_id) +
+                               ".");
                 if (k == 0)
-                  physical_ids[{dimension, tag}] =
-                    static_cast<unsigned int>(std::abs(id));
+                  physical_ids[{dimension, tag}] = static_cast<unsigned int>(id);
               }
             if (dimension > 0)
               {
@@ -296,9 +305,10 @@ namespace mitre::io
             {
               if (third != 0)
                 scanner.fail("parametric nodes are not supported.");
-              std::vector<unsigned long> tags(n);
-              for (unsigned long &tag : tags)
-                tag = scanner.integer("a node number");
+              // One by one, as a damaged file may tell of more than there is memory.
+              std::vector<unsigned long> tags;
+              for (unsigned long i = 0; i < n; ++i)
+                tags.push_back(scanner.integer("a node number"));
               for (const unsigned long tag : tags)
                 add_node(scanner, raw, tag);
             }
@@ -329,9 +339,10 @@ namespace mitre::io
       const unsigned long n_reals = scanner.integer("a number of times");
       for (unsigned long i = 0; i < n_reals; ++i)
         scanner.number("a time");
-      std::vector<unsigned long> integers(scanner.integer("a number of integers"));
-      for (unsigned long &value : integers)
-        value = scanner.integer("an integer");
+      const unsigned long n_integers = scanner.integer("a number of integers");
+      std::vector<unsigned long> integers;
+      for (unsigned long i = 0; i < n_integers; ++i)
+        integers.push_back(scanner.integer("an integer"));
       if (integers.size() < 3)
         scanner.fail("$ElementData needs time step, number of components and number of "
                      "elements.");
@@ -491,7 +502,13 @@ namespace mitre::io
   structure::Mesh<dim> read_msh(std::istream &in, const std::string &source)
   {
     // Step 1: the text.
-    Scanner scanner(std::string(std::istreambuf_iterator<char>(in), {}), source);
+    const std::string text(std::istreambuf_iterator<char>(in), {});
+    AssertThrow(
+      text.find('\0') == std::string::npos,
+      base::UserError("Mesh file " + source +
+                      ": it has bytes that are 0, as binary files have; save it "
+                      "as ASCII (gmsh: -format msh22, without -bin)."));
+    Scanner scanner(text, source);
     const RawMesh raw = scan(scanner);
 
     // Step 2: there must be elements of our dimension, all alike.
