@@ -48,7 +48,11 @@ namespace mitre::coupling
     , density(density)
     , rules_(body.mesh().shape, body.reference_element())
   {
-    AssertThrow(body.mesh().degree == 1, dealii::ExcNotImplemented());
+    AssertThrow(body.mesh().degree == 1,
+                base::UserError("Part " + body.name() + ": the elements of " +
+                                body.mesh().source +
+                                " are of second order, which cannot be coupled to the "
+                                "fluid yet; expected elements of first order."));
   }
 
 

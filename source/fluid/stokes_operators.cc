@@ -76,7 +76,7 @@ namespace mitre::fluid
     VectorType pressure;
     initialize_pressure(pressure);
     for (std::size_t i = 0; i < pressure.locally_owned_size(); ++i)
-      pressure.local_element(i) = 1. + (i * 2654435761u % 1021) / 2042.;
+      pressure.local_element(i) = 1. + 0.5 * std::sin(1. + 1.7 * i * i);
     interface_forces = 0.;
     set_interface_forces(pressure);
     space.collect_interfaces(interface_forces);
