@@ -17,6 +17,7 @@
 #include <mitre/base/units.h>
 #include <mitre/io/safe_file.h>
 #include <mitre/simulation/simulation.h>
+#include <mitre/structure/stable_time_step.h>
 
 namespace mitre::simulation
 {
@@ -133,7 +134,11 @@ namespace mitre::simulation
         << " s:\n";
     check_step_limits(limits, largest_time_step, findings, out);
     if (!parts.empty())
-      out << "    elastic forces of the parts: not estimated\n";
+      for (const Part &part : parts)
+        out << "    part " << part.body->name() << " by itself, of the fluid's density: "
+            << structure::describe(structure::estimate_stable_time_step(
+                 *part.body, part.X, current_time, fluid_parameters.density))
+            << "\n";
     else
       out << "    no explicit forces\n";
 
