@@ -134,11 +134,16 @@ namespace mitre::simulation
         << " s:\n";
     check_step_limits(limits, largest_time_step, findings, out);
     if (!parts.empty())
-      for (const Part &part : parts)
-        out << "    part " << part.body->name() << " by itself, of the fluid's density: "
-            << structure::describe(structure::estimate_stable_time_step(
-                 *part.body, part.X, current_time, fluid_parameters.density))
-            << "\n";
+      {
+        out
+          << "    elastic forces, if tissue moved without the fluid around it (with it, "
+             "several times as long where elements are as fine as the cells):\n";
+        for (const Part &part : parts)
+          out << "      part " << part.body->name() << ": "
+              << structure::describe(structure::estimate_stable_time_step(
+                   *part.body, part.X, current_time, fluid_parameters.density))
+              << "\n";
+      }
     else
       out << "    no explicit forces\n";
 
