@@ -517,6 +517,54 @@ namespace mitre::grid
   }
 
 
+  namespace
+  {
+    /// A stencil along a line of coarse faces: offsets from coarser_index(), weights.
+    struct Stencil
+    {
+      unsigned int size;
+      std::array<int, 3> offset;
+      std::array<double, 3> weight;
+    };
+
+    /// The index of the coarse face or cell at or below that of a fine one.
+    int coarser_index(const int index)
+    {
+      return index >= 0 ? index / 2 : (index - 1) / 2;
+    }
+
+    /// The stencils that give the value at a fine index, the preferred one first; @p
+    /// normal: along the normal of the faces.
+    const std::vector<Stencil> &stencils_beside(const int index, const bool normal)
+    {
+      const auto tangential = [](const int near) { // the coarse neighbour on this side
+        const double s = 0.25;
+        return std::vector<Stencil>{
+          {3, {{-near, 0, near}}, {{0.5 * s * (s - 1), 1 - s * s, 0.5 * s * (s + 1)}}},
+          {3,
+           {{0, near, 2 * near}},
+           {{0.5 * (s - 1) * (s - 2), -s * (s - 2), 0.5 * s * (s - 1)}}},
+          {3,
+           {{0, -near, -2 * near}},
+           {{0.5 * (s + 1) * (s + 2), -s * (s + 2), 0.5 * s * (s + 1)}}},
+          {2, {{0, near, 0}}, {{1 - s, s, 0.}}},
+          {1, {{0, 0, 0}}, {{1., 0., 0.}}}};
+      };
+      static const std::vector<Stencil> on_face = {{1, {{0, 0, 0}}, {{1., 0., 0.}}}},
+                                        between =
+                                          {{3, {{0, 1, 2}}, {{0.375, 0.75, -0.125}}},
+                                           {3, {{1, 0, -1}}, {{0.375, 0.75, -0.125}}},
+                                           {2, {{0, 1, 0}}, {{0.5, 0.5, 0.}}}},
+                                        low_half  = tangential(-1),
+                                        high_half = tangential(1);
+      const bool odd = (index - 2 * coarser_index(index)) == 1;
+      if (normal)
+        return odd ? between : on_face;
+      return odd ? high_half : low_half;
+    }
+  } // namespace
+
+
   template <int dim>
   bool
   StaggeredSpace<dim>::interpolate_from_coarser(const int level,
@@ -537,81 +585,31 @@ namespace mitre::grid
         std::array<std::pair<unsigned int, std::array<double, 3>>, dim> lines;
         for (unsigned int e = 0; e < dim; ++e)
           {
-            first[e]       = (index[e] >= 0 ? index[e] / 2 : (index[e] - 1) / 2);
-            const bool odd = (index[e] - 2 * first[e]) == 1;
-            if (e != c)
-              {
-                first[e] -= 1;
-                lines[e] = {3, {{5. / 32., 15. / 16., -3. / 32.}}};
-                if (odd)
-                  std::swap(lines[e].second[0], lines[e].second[2]);
-              }
-            else if (odd)
-              lines[e] = {3, {{0.375, 0.75, -0.125}}};
-            else
-              lines[e] = {1, {{1., 0., 0.}}};
+            const Stencil &stencil = stencils_beside(index[e], e == c)[0];
+            const int lowest       = *std::min_element(stencil.offset.begin(),
+                                                 stencil.offset.begin() + stencil.size);
+            first[e]               = coarser_index(index[e]) + lowest;
+            lines[e].first         = stencil.size;
+            for (unsigned int j = 0; j < stencil.size; ++j)
+              lines[e].second[stencil.offset[j] - lowest] = stencil.weight[j];
           }
         if (add_coarse_values(
               level - 1, c, first, lines, extension, result, coarse_values))
           return true;
       }
 
-    // Stencils in order of preference: offsets from the base point, weights.
-    struct Stencil
-    {
-      unsigned int size;
-      std::array<int, 3> offset;
-      std::array<double, 3> weight;
-    };
-    const int base = (index[d] >= 0 ? index[d] / 2 : (index[d] - 1) / 2);
-    const bool odd = (index[d] - 2 * base) == 1;
-
-    std::array<Stencil, 5> stencils;
-    unsigned int n_stencils;
-    if (d == c)
-      {
-        if (!odd)
-          {
-            stencils[0] = {1, {{0, 0, 0}}, {{1., 0., 0.}}};
-            n_stencils  = 1;
-          }
-        else
-          {
-            stencils[0] = {3, {{0, 1, 2}}, {{0.375, 0.75, -0.125}}};
-            stencils[1] = {3, {{1, 0, -1}}, {{0.375, 0.75, -0.125}}};
-            stencils[2] = {2, {{0, 1, 0}}, {{0.5, 0.5, 0.}}};
-            n_stencils  = 3;
-          }
-      }
-    else
-      {
-        const double s = 0.25;
-        const int near = odd ? 1 : -1; // the coarse neighbour on this side
-        stencils[0]    = {
-             3, {{-near, 0, near}}, {{0.5 * s * (s - 1), 1 - s * s, 0.5 * s * (s + 1)}}};
-        stencils[1] = {3,
-                       {{0, near, 2 * near}},
-                       {{0.5 * (s - 1) * (s - 2), -s * (s - 2), 0.5 * s * (s - 1)}}};
-        stencils[2] = {3,
-                       {{0, -near, -2 * near}},
-                       {{0.5 * (s + 1) * (s + 2), -s * (s + 2), 0.5 * s * (s + 1)}}};
-        stencils[3] = {2, {{0, near, 0}}, {{1 - s, s, 0.}}};
-        stencils[4] = {1, {{0, 0, 0}}, {{1., 0., 0.}}};
-        n_stencils  = 5;
-      }
-
-    for (unsigned int k = 0; k < n_stencils; ++k)
+    for (const Stencil &stencil : stencils_beside(index[d], d == c))
       {
         LinearCombination<dim> candidate;
         bool possible = true;
-        for (unsigned int j = 0; j < stencils[k].size && possible; ++j)
+        for (unsigned int j = 0; j < stencil.size && possible; ++j)
           {
-            coarse[d] = base + stencils[k].offset[j];
+            coarse[d] = coarser_index(index[d]) + stencil.offset[j];
             LinearCombination<dim> part;
             possible = interpolate_from_coarser(
               level, c, index, extension, d + 1, coarse, part, coarse_values);
             if (possible)
-              candidate.add(part, stencils[k].weight[j]);
+              candidate.add(part, stencil.weight[j]);
           }
         if (possible)
           {

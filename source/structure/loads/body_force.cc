@@ -23,7 +23,7 @@ namespace mitre::structure
   {
     force.parse_parameters(prm, "Force", what);
     factor.parse_parameters(prm, "Time factor", "1", what);
-    volume.parse_parameters(prm, what);
+    this->volume.parse_parameters(prm, what);
   }
 
 
@@ -31,7 +31,7 @@ namespace mitre::structure
   void BodyForce<dim>::add_forces(const NodalState &state, double *forces) const
   {
     const double f = factor.value(state.t);
-    volume.add_forces(
+    this->volume.add_forces(
       state,
       [&](const VolumePoint<dim> &point) {
         return f * point.volume * force.value(point.s, state.t);

@@ -21,7 +21,7 @@ namespace mitre::structure
                                       const std::string &what)
   {
     damping.parse_parameters(prm, "Damping", "0", what);
-    volume.parse_parameters(prm, what);
+    this->volume.parse_parameters(prm, what);
   }
 
 
@@ -29,7 +29,7 @@ namespace mitre::structure
   void Damping<dim>::add_forces(const NodalState &state, double *forces) const
   {
     const double eta = damping.value(state.t);
-    volume.add_forces(
+    this->volume.add_forces(
       state,
       [&](const VolumePoint<dim> &point) { return -eta * point.volume * point.u; },
       forces);

@@ -28,7 +28,7 @@ namespace mitre::structure
   {
     pressure.parse_parameters(prm, "Pressure", "0", what);
     follower = prm.get("Surface") == "deformed";
-    surface.parse_parameters(prm, what);
+    this->surface.parse_parameters(prm, what);
   }
 
 
@@ -38,7 +38,7 @@ namespace mitre::structure
     const double p = pressure.value(state.t);
     if (p == 0)
       return;
-    surface.add_forces(
+    this->surface.add_forces(
       state,
       [&](const SurfacePoint<dim> &point) {
         return -p * (follower ? point.area : point.reference_area);

@@ -23,7 +23,7 @@ namespace mitre::structure
   {
     traction.parse_parameters(prm, "Traction", what);
     factor.parse_parameters(prm, "Time factor", "1", what);
-    surface.parse_parameters(prm, what);
+    this->surface.parse_parameters(prm, what);
   }
 
 
@@ -31,7 +31,7 @@ namespace mitre::structure
   void Traction<dim>::add_forces(const NodalState &state, double *forces) const
   {
     const double f = factor.value(state.t);
-    surface.add_forces(
+    this->surface.add_forces(
       state,
       [&](const SurfacePoint<dim> &point) {
         return f * point.reference_area.norm() * traction.value(point.s, state.t);

@@ -1,7 +1,7 @@
 #ifndef mitre_structure_loads_damping_h
 #define mitre_structure_loads_damping_h
 
-#include <mitre/structure/loads/load.h>
+#include <mitre/structure/loads/region_loads.h>
 #include <mitre/structure/time_function.h>
 
 namespace mitre::structure
@@ -12,7 +12,7 @@ namespace mitre::structure
    * fluid's density @f$\rho@f$, @f$\eta \lesssim \rho/\Delta t@f$.
    */
   template <int dim>
-  class Damping : public Load<dim>
+  class Damping : public VolumeLoad<dim>
   {
   public:
     static void declare_parameters(dealii::ParameterHandler &prm);
@@ -20,25 +20,9 @@ namespace mitre::structure
     void parse_parameters(dealii::ParameterHandler &prm,
                           const std::string &what) override;
 
-    void initialize(const Mesh<dim> &) override
-    {
-    }
-
-    void reinit(const Mesh<dim> &mesh, const ElementSet<dim> &elements) override
-    {
-      volume.reinit(mesh, elements);
-    }
-
-    unsigned int n_elements() const override
-    {
-      return volume.n_elements();
-    }
-
     void add_forces(const NodalState &state, double *forces) const override;
 
   private:
-    VolumeRegion<dim> volume;
-
     /// [dyn s/cm^4]
     TimeFunction damping;
   };

@@ -1,7 +1,7 @@
 #ifndef mitre_structure_loads_pressure_h
 #define mitre_structure_loads_pressure_h
 
-#include <mitre/structure/loads/load.h>
+#include <mitre/structure/loads/region_loads.h>
 #include <mitre/structure/time_function.h>
 
 namespace mitre::structure
@@ -18,7 +18,7 @@ namespace mitre::structure
    * section 8.5. Follower forces on a closed surface add up to no force and no torque.
    */
   template <int dim>
-  class Pressure : public Load<dim>
+  class Pressure : public SurfaceLoad<dim>
   {
   public:
     static void declare_parameters(dealii::ParameterHandler &prm);
@@ -26,26 +26,9 @@ namespace mitre::structure
     void parse_parameters(dealii::ParameterHandler &prm,
                           const std::string &what) override;
 
-    void initialize(const Mesh<dim> &mesh) override
-    {
-      surface.initialize(mesh);
-    }
-
-    void reinit(const Mesh<dim> &mesh, const ElementSet<dim> &elements) override
-    {
-      surface.reinit(mesh, elements);
-    }
-
-    unsigned int n_elements() const override
-    {
-      return surface.n_faces();
-    }
-
     void add_forces(const NodalState &state, double *forces) const override;
 
   private:
-    SurfaceRegion<dim> surface;
-
     /// [dyn/cm^2]
     TimeFunction pressure;
 

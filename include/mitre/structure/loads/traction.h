@@ -1,7 +1,7 @@
 #ifndef mitre_structure_loads_traction_h
 #define mitre_structure_loads_traction_h
 
-#include <mitre/structure/loads/load.h>
+#include <mitre/structure/loads/region_loads.h>
 #include <mitre/structure/time_function.h>
 #include <mitre/structure/vector_expression.h>
 
@@ -12,7 +12,7 @@ namespace mitre::structure
    * [dyn/cm^2], @f$G_a = \int_{\partial U} \phi_a\,T(s, t)\,dA@f$.
    */
   template <int dim>
-  class Traction : public Load<dim>
+  class Traction : public SurfaceLoad<dim>
   {
   public:
     static void declare_parameters(dealii::ParameterHandler &prm);
@@ -20,26 +20,9 @@ namespace mitre::structure
     void parse_parameters(dealii::ParameterHandler &prm,
                           const std::string &what) override;
 
-    void initialize(const Mesh<dim> &mesh) override
-    {
-      surface.initialize(mesh);
-    }
-
-    void reinit(const Mesh<dim> &mesh, const ElementSet<dim> &elements) override
-    {
-      surface.reinit(mesh, elements);
-    }
-
-    unsigned int n_elements() const override
-    {
-      return surface.n_faces();
-    }
-
     void add_forces(const NodalState &state, double *forces) const override;
 
   private:
-    SurfaceRegion<dim> surface;
-
     /// [dyn/cm^2]
     VectorExpression<dim> traction;
 
