@@ -1,6 +1,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include <mitre/base/exceptions.h>
 #include <mitre/coupling/fe_coupling.h>
@@ -14,16 +15,33 @@ namespace mitre::coupling
     for (const std::string &name : kernel_names())
       names += (names.empty() ? "" : "|") + name;
 
-    prm.declare_entry("Point density",
-                      "2",
-                      dealii::Patterns::Double(0.1, 20),
-                      "Quadrature points for each grid spacing along the longest edge of "
-                      "an element as it is now, deformed. Too few let fluid through.");
+    prm.declare_entry(
+      "Point density",
+      "2",
+      dealii::Patterns::Double(0.1, 20),
+      "Quadrature points for each grid spacing along the longest edge of "
+      "an element as it is now, deformed; in tetrahedra and triangles the "
+      "points have no larger holes between them than those of a cube with "
+      "such edges. Too few let fluid through. Without effect on nodal "
+      "coupling.");
     prm.declare_entry("Kernel",
                       "IB_4",
                       dealii::Patterns::Selection(names),
-                      "Regularised delta function: IB_4 (Peskin's four-point kernel) or "
-                      "IB_3 (three points, Roma et al.).");
+                      "Regularised delta function: IB_4 (Peskin's four-point kernel), "
+                      "IB_3 (Roma, Peskin and Berger), IB_5 and IB_6 (Bao, Kaye and "
+                      "Peskin), BSPLINE_n (B-spline of n points), or composite B-splines "
+                      "CBSmn (of m points along a velocity component, n across), which "
+                      "keep the interpolated velocity free of divergence. IB_5, IB_6, "
+                      "BSPLINE_5, BSPLINE_6, CBS54 and CBS65 reach a cell farther than "
+                      "the others and cost twice as much or more.");
+    prm.declare_entry(
+      "Coupling",
+      "elemental",
+      dealii::Patterns::Selection("elemental|nodal"),
+      "elemental: velocities are interpolated to, and forces spread from, "
+      "quadrature points in the elements; nodal: to and from the nodes "
+      "alone, with a lumped mass matrix, which is cheaper but lets fluid "
+      "through where elements are larger than the grid's cells.");
     prm.declare_entry("Grid level",
                       "finest",
                       dealii::Patterns::Anything(),
@@ -34,8 +52,10 @@ namespace mitre::coupling
 
   void CouplingParameters::parse_parameters(dealii::ParameterHandler &prm)
   {
-    point_density                = prm.get_double("Point density");
-    kernel                       = prm.get("Kernel");
+    point_density = prm.get_double("Point density");
+    kernel        = prm.get("Kernel");
+    points =
+      prm.get("Coupling") == "nodal" ? PointChoice::nodes : PointChoice::quadrature;
     const std::string level_text = prm.get("Grid level");
     level                        = -1;
     if (level_text != "finest")
@@ -63,9 +83,20 @@ namespace mitre::coupling
   {
     Part part;
     part.parameters = parameters;
-    part.points = std::make_unique<PartPoints<dim>>(grid, body, parameters.point_density);
+    part.points     = std::make_unique<PartPoints<dim>>(
+      grid, body, parameters.point_density, parameters.points);
     part.points->reinit();
     parts.push_back(std::move(part));
+  }
+
+
+  template <int dim>
+  unsigned int FECoupling<dim>::halo_width() const
+  {
+    unsigned int width = kernel_halo_width("IB_4");
+    for (const Part &part : parts)
+      width = std::max(width, kernel_halo_width(part.parameters.kernel));
+    return width;
   }
 
 
@@ -73,7 +104,7 @@ namespace mitre::coupling
   void FECoupling<dim>::reinit(grid::VelocityHalo<dim> &new_halo)
   {
     halo = &new_halo;
-    AssertThrow(halo->width() >= kernel_halo_width, dealii::ExcInternalError());
+    AssertThrow(halo->width() >= halo_width(), dealii::ExcInternalError());
     AssertThrow(halo->shape() == grid::HaloShape::full, dealii::ExcInternalError());
 
     std::array<std::array<unsigned int, dim>, dim> extents;
@@ -173,7 +204,95 @@ namespace mitre::coupling
       }
     compute_velocity_moments(u, pointers);
     for (unsigned int i = 0; i < parts.size(); ++i)
-      body(i).project(*U[i], moments[i]);
+      if (parts[i].parameters.points == PointChoice::nodes)
+        {
+          const std::vector<double> &weights = body(i).mass_matrix().lumped();
+          for (unsigned int node = 0; node < weights.size(); ++node)
+            for (unsigned int c = 0; c < dim; ++c)
+              U[i]->local_element(node * dim + c) =
+                moments[i].local_element(node * dim + c) / weights[node];
+        }
+      else
+        body(i).project(*U[i], moments[i]);
+  }
+
+
+  template <int dim>
+  std::vector<std::pair<std::size_t, dealii::Tensor<1, dim>>>
+  FECoupling<dim>::velocities_at(const VectorType &u,
+                                 const std::vector<dealii::Point<dim>> &points) const
+  {
+    Assert(halo != nullptr, dealii::ExcNotInitialized());
+    using Kernel = kernels::CompositeBSpline<3>;
+
+    // Step 1: points by patch.
+    std::vector<std::pair<unsigned int, std::size_t>> order;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      {
+        const unsigned int p = grid.locate(points[i]);
+        if (p != dealii::numbers::invalid_unsigned_int)
+          order.emplace_back(p, i);
+      }
+    std::sort(order.begin(), order.end());
+
+    // Step 2: their velocities.
+    const VectorType &imported = halo->import(u);
+    const double width         = halo->width();
+    std::vector<std::pair<std::size_t, dealii::Tensor<1, dim>>> result;
+    unsigned int gathered = dealii::numbers::invalid_unsigned_int;
+    for (const auto &[p, i] : order)
+      {
+        if (p != gathered)
+          for (unsigned int c = 0; c < dim; ++c)
+            halo->gather(imported, p, c, padded->values[c].data(), true);
+        gathered = p;
+
+        dealii::Tensor<1, dim> velocity;
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            std::array<std::array<double, 3>, dim> weights;
+            std::array<unsigned int, dim> first;
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                const double x =
+                  (grid.pull_into_box(points[i][d], d) - grid.patch(p).lower[d]) /
+                    grid.patch(p).h[d] +
+                  width - (d == c ? 0. : 0.5);
+                weights[d] = {{0., 0., 0.}};
+                if (d == c)
+                  {
+                    const double base = std::floor(x + 0.5);
+                    weights[d]        = Kernel::Normal::weights(x - base);
+                    first[d]          = static_cast<unsigned int>(base) - 1;
+                  }
+                else
+                  {
+                    const double base = std::floor(x);
+                    const auto two    = Kernel::Across::weights(x - base);
+                    weights[d]        = {{two[0], two[1], 0.}};
+                    first[d]          = static_cast<unsigned int>(base);
+                  }
+              }
+            double sum = 0;
+            for (unsigned int k = 0; k < (dim == 3 ? 3 : 1); ++k)
+              for (unsigned int j = 0; j < 3; ++j)
+                for (unsigned int m = 0; m < 3; ++m)
+                  {
+                    const auto &extents     = padded->extents[c];
+                    const std::size_t entry = first[0] + m + extents[0] * (first[1] + j);
+                    if constexpr (dim == 3)
+                      sum +=
+                        weights[0][m] * weights[1][j] * weights[2][k] *
+                        padded
+                          ->values[c][entry + extents[0] * extents[1] * (first[2] + k)];
+                    else
+                      sum += weights[0][m] * weights[1][j] * padded->values[c][entry];
+                  }
+            velocity[c] = sum;
+          }
+        result.emplace_back(i, velocity);
+      }
+    return result;
   }
 
 

@@ -36,16 +36,38 @@ namespace mitre::coupling
               edges.emplace_back(a, a | (1u << d));
       return edges;
     }
+
+
+    /// Whether an element has the shape that a linear map gives to the reference element.
+    template <int dim>
+    bool is_parallelepiped(const structure::Mesh<dim> &mesh, const unsigned int e)
+    {
+      const auto node = [&](const unsigned int a) -> const dealii::Point<dim> & {
+        return mesh.nodes[mesh.elements[e * mesh.nodes_per_element + a]];
+      };
+      double difference = 0;
+      for (unsigned int a = 1; a < (1u << dim); ++a)
+        {
+          dealii::Tensor<1, dim> offset = node(a) - node(0);
+          for (unsigned int d = 0; d < dim; ++d)
+            if ((a & (1u << d)) != 0)
+              offset -= node(1u << d) - node(0);
+          difference = std::max(difference, offset.norm());
+        }
+      return difference < 1e-10 * (node((1u << dim) - 1) - node(0)).norm();
+    }
   } // namespace
 
 
   template <int dim>
   PartPoints<dim>::PartPoints(const grid::PatchGrid<dim> &grid,
                               const structure::Body<dim> &body,
-                              const double density)
+                              const double density,
+                              const PointChoice choice)
     : grid(grid)
     , body_(body)
     , density(density)
+    , choice(choice)
     , rules_(body.mesh().shape, body.reference_element())
   {
     AssertThrow(body.mesh().degree == 1,
@@ -168,7 +190,8 @@ namespace mitre::coupling
     spacings.clear();
     counted.clear();
     jacobians.clear();
-    const structure::ShapeTable<dim> &table = rules_.get(rules_.smallest()).table;
+    smallest_k.clear();
+    const structure::ShapeTable<dim> &table = rules_.get(2).table;
     for (const unsigned int e : relevant)
       {
         double h = std::numeric_limits<double>::max();
@@ -178,11 +201,24 @@ namespace mitre::coupling
         counted.push_back(counting_rank[e] == rank);
         if (mesh.shape == structure::ElementShape::simplex)
           jacobians.push_back(determinant(table.jacobian(mesh, e, 0)));
+        smallest_k.push_back(mesh.shape == structure::ElementShape::simplex ||
+                                 is_parallelepiped(mesh, e)
+                               ? 2
+                               : dim);
       }
 
     positions_.reinit(elements_.partitioner());
     positions_at_lookup = X;
-    patch_hints.assign(relevant.size(), 0);
+    patch_hints.assign(
+      choice == PointChoice::nodes ? elements_.n_nodes() : relevant.size(), 0);
+    if (choice == PointChoice::nodes)
+      {
+        node_weights.reinit(elements_.partitioner());
+        const std::vector<double> &lumped = body_.mass_matrix().lumped();
+        for (unsigned int i = 0; i < lumped.size(); ++i)
+          node_weights.local_element(i * dim) = lumped[i];
+        node_weights.update_ghost_values();
+      }
     elements_are_known = true;
   }
 
@@ -257,8 +293,13 @@ namespace mitre::coupling
     std::size_t next = 0;
     for (Run &run : runs_)
       {
+        run.first_point = next;
+        if (choice == PointChoice::nodes)
+          {
+            weights_[next++] = node_weights.local_element(run.element * dim);
+            continue;
+          }
         const PointRule<dim> &rule = rules_.get(run.k);
-        run.first_point            = next;
         for (unsigned int i = 0; i < run.n_points; ++i, ++next)
           {
             const unsigned int q = run.list ? selected_[run.first + i] : run.first + i;
@@ -286,6 +327,7 @@ namespace mitre::coupling
     error.clear();
     n_points_         = 0;
     n_expected_points = 0;
+    largest_spacing_  = 0;
 
     for (unsigned int i = 0; i < elements_.n_elements(); ++i)
       {
@@ -303,19 +345,25 @@ namespace mitre::coupling
               }
             longest_square = std::max(longest_square, square);
           }
-        const double wanted =
-          std::ceil(density * std::sqrt(longest_square) / spacings[i]);
+        const double length = std::sqrt(longest_square) / spacings[i];
+        if (choice == PointChoice::nodes)
+          {
+            largest_spacing_ = std::max(largest_spacing_, length);
+            continue;
+          }
+        const double wanted = std::ceil(density * length);
         if (!(wanted <= max_points_per_edge))
           {
             error = "Part " + body_.name() + ": the longest edge of the " +
                     body_.mesh().describe_element(elements_.element(i)) + " is now " +
-                    std::to_string(std::sqrt(longest_square) / spacings[i]) +
-                    " grid spacings; more than " + std::to_string(max_points_per_edge) +
+                    std::to_string(length) + " grid spacings; more than " +
+                    std::to_string(max_points_per_edge) +
                     " quadrature points an edge would be needed.";
             return;
           }
         const unsigned int k =
-          std::max(static_cast<unsigned int>(wanted), rules_.smallest());
+          std::max<unsigned int>(static_cast<unsigned int>(wanted), smallest_k[i]);
+        largest_spacing_           = std::max(largest_spacing_, length / k);
         const PointRule<dim> &rule = rules_.get(k);
         if (counted[i])
           n_expected_points += rule.n_points;
@@ -332,24 +380,11 @@ namespace mitre::coupling
               }
             centroid[d] = 0.5 * (lower[d] + upper[d]);
           }
-        const auto holds = [&](const unsigned int p) {
-          const grid::Patch<dim> &patch = grid.patch(p);
-          bool inside                   = true;
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              // Away from faces, where round-off would decide.
-              const double tolerance = 1e-6 * patch.h[d];
-              inside                 = inside && lower[d] >= patch.lower[d] + tolerance &&
-                       upper[d] <= patch.lower[d] + grid.n_cells_per_side() * patch.h[d] -
-                                     tolerance;
-            }
-          return inside;
-        };
-        bool whole = patch_hints[i] < grid.n_owned_patches() && holds(patch_hints[i]);
+        bool whole = lies_in_patch(lower, upper, patch_hints[i]);
         if (!whole)
           {
             patch_hints[i] = grid.locate(centroid);
-            whole          = patch_hints[i] != invalid && holds(patch_hints[i]);
+            whole          = lies_in_patch(lower, upper, patch_hints[i]);
           }
         if (whole)
           {
@@ -361,6 +396,61 @@ namespace mitre::coupling
         if (!error.empty())
           return;
       }
+    if (choice == PointChoice::nodes)
+      find_nodes();
+  }
+
+
+  template <int dim>
+  void PartPoints<dim>::find_nodes()
+  {
+    n_expected_points = elements_.n_owned_nodes();
+    for (unsigned int i = 0; i < elements_.n_nodes(); ++i)
+      {
+        dealii::Point<dim> x;
+        for (unsigned int d = 0; d < dim; ++d)
+          x[d] = positions_.local_element(i * dim + d);
+        if (!lies_in_patch(x, x, patch_hints[i]))
+          patch_hints[i] = grid.locate(x);
+        if (patch_hints[i] != invalid)
+          {
+            unsorted_runs.push_back({patch_hints[i], i, 1, 1, 0, 0u, false});
+            ++n_points_;
+          }
+        else if (!is_in_box(x))
+          {
+            error = "Part " + body_.name() + ": a node is at " + structure::to_string(x) +
+                    " cm, which is outside of the fluid's box.";
+            return;
+          }
+      }
+  }
+
+
+  template <int dim>
+  bool PartPoints<dim>::lies_in_patch(const dealii::Point<dim> &lower,
+                                      const dealii::Point<dim> &upper,
+                                      const unsigned int p) const
+  {
+    if (p >= grid.n_owned_patches())
+      return false;
+    const grid::Patch<dim> &patch = grid.patch(p);
+    bool inside                   = true;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double tolerance = 1e-6 * patch.h[d];
+        inside =
+          inside && lower[d] >= patch.lower[d] + tolerance &&
+          upper[d] <= patch.lower[d] + grid.n_cells_per_side() * patch.h[d] - tolerance;
+      }
+    return inside;
+  }
+
+
+  template <int dim>
+  double PartPoints<dim>::largest_spacing() const
+  {
+    return dealii::Utilities::MPI::max(largest_spacing_, body_.communicator());
   }
 
 
@@ -374,14 +464,27 @@ namespace mitre::coupling
     const double *x            = positions_.begin();
 
     point_patches.resize(rule.n_points);
+    candidates.clear();
     for (unsigned int q = 0; q < rule.n_points; ++q)
       {
         dealii::Point<dim> point;
         for (unsigned int a = 0; a < n_nodes; ++a)
           for (unsigned int d = 0; d < dim; ++d)
             point[d] += rule.by_point[q * n_nodes + a] * x[nodes[a] * dim + d];
+        // Neighbours are mostly in the same patch.
+        const auto found =
+          std::find_if(candidates.begin(), candidates.end(), [&](const unsigned int p) {
+            return lies_in_patch(point, point, p);
+          });
+        if (found != candidates.end())
+          {
+            point_patches[q] = *found;
+            continue;
+          }
         point_patches[q] = grid.locate(point);
-        if (point_patches[q] == invalid && !is_in_box(point))
+        if (point_patches[q] != invalid)
+          candidates.push_back(point_patches[q]);
+        else if (!is_in_box(point))
           {
             error = "Part " + body_.name() + ": the " +
                     body_.mesh().describe_element(elements_.element(i)) +

@@ -1,16 +1,13 @@
 #if defined(__GNUC__) && !defined(__clang__)
-// The choice of induction variables by gcc 12.2 (-O2 and above) makes wrong addresses in
-// the loops over points: velocities come out as zero or as those of other points. clang,
-// -O1, and -fno-ivopts all give the right ones.
-//
-// Without the other two, square roots and rounding are not vectorised: 33 instead of 12
-// ns a point for the weights.
-#  pragma GCC optimize("no-ivopts", "no-math-errno", "no-trapping-math")
+// gcc's own intrinsics start from vectors without a value (gcc bug 105593).
+#  pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#  pragma GCC diagnostic ignored "-Wuninitialized"
 #endif
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <experimental/simd>
 
 #include <mitre/coupling/kernels.h>
 #include <mitre/coupling/patch_loops.h>
@@ -29,7 +26,7 @@ namespace mitre::coupling
         std::size_t size = 1;
         for (const unsigned int extent : extents[c])
           size *= extent;
-        values[c].assign(size + 4, 0.);
+        values[c].assign(size + 8, 0.);
       }
   }
 
@@ -52,6 +49,9 @@ namespace mitre::coupling
 
   namespace
   {
+    namespace stdx     = std::experimental;
+    using Lanes        = stdx::native_simd<double>;
+    using FourDoubles  = double __attribute__((vector_size(32)));
     using EightDoubles = double __attribute__((vector_size(64)));
 
     /// Vectors are read and written by memcpy, which compilers turn into one instruction
@@ -79,10 +79,16 @@ namespace mitre::coupling
      * Coordinates and kernel weights of a number of points. A component is at faces in
      * its own direction and in the middle of cells in the others, so that each direction
      * has two sets of weights: [0] for faces, [1] for cell centres.
+     *
+     * Loops are over n_reach grid points in each direction, 4 or 6; kernels that reach
+     * fewer have weights of zero at the others.
      */
-    template <int dim>
+    template <int dim, int n_reach>
     struct Chunk
     {
+      /// The values in a row of the grid that is read or written at once.
+      using Row = std::conditional_t<n_reach == 4, FourDoubles, EightDoubles>;
+
       unsigned int n_points = 0;
 
       /// Coordinates relative to the patch, in grid spacings.
@@ -91,11 +97,60 @@ namespace mitre::coupling
       /// A value a component of each point, and the weights of quadrature.
       alignas(64) double values[dim][chunk_size + 8];
 
-      alignas(64) double weights[chunk_size][dim][2][4];
-      alignas(64) double r[dim][2][chunk_size + 8];
-      alignas(64) double root[dim][2][chunk_size + 8];
-      alignas(64) int index[dim][2][chunk_size + 8];
+      alignas(64) double weights[dim][2][n_reach][chunk_size];
+      alignas(64) int index[dim][2][chunk_size];
+
+      /// Where the n_reach^dim values at a point begin in the array of a component.
+      alignas(64) int first_entry[dim][chunk_size];
+
+      /// The weights of point @p i along the first direction.
+      Row x_weights(const unsigned int s, const unsigned int i) const
+      {
+        const auto &w = weights[0][s];
+        if constexpr (n_reach == 4)
+          return Row{w[0][i], w[1][i], w[2][i], w[3][i]};
+        else
+          return Row{w[0][i], w[1][i], w[2][i], w[3][i], w[4][i], w[5][i], 0., 0.};
+      }
     };
+
+
+    /// Weights and number of the first grid point for the @p n coordinates x + offset,
+    /// which round-off must not lead beyond @p last (the grid point below or nearest).
+    template <int n_reach>
+    using WeightFunction = void (*)(const double *x,
+                                    const unsigned int n,
+                                    const double offset,
+                                    const double last,
+                                    double (*weights)[chunk_size],
+                                    int *index);
+
+    // Bound by arithmetic.
+    template <typename Kernel, int n_reach>
+    void weights_of_kernel(const double *x,
+                           const unsigned int n,
+                           const double offset,
+                           const double last,
+                           double (*weights)[chunk_size],
+                           int *index)
+    {
+      constexpr int below   = n_reach / 2 - 1;
+      constexpr int missing = below - (Kernel::n_points - 1) / 2;
+      static_assert(chunk_size % Lanes::size() == 0);
+      for (unsigned int i = 0; i < n; i += Lanes::size())
+        {
+          const Lanes coordinate = Lanes(x + i, stdx::element_aligned) + offset;
+          Lanes base =
+            stdx::floor(Kernel::n_points % 2 == 0 ? coordinate : coordinate + 0.5);
+          base         = stdx::min(stdx::max(base, Lanes(below)), Lanes(last));
+          const auto w = Kernel::weights(coordinate - base);
+          for (int j = 0; j < n_reach; ++j)
+            (j < missing || j >= missing + Kernel::n_points ? Lanes(0.) : w[j - missing])
+              .copy_to(weights[j] + i, stdx::vector_aligned);
+          stdx::static_simd_cast<stdx::rebind_simd_t<int, Lanes>>(base - below)
+            .copy_to(index + i, stdx::element_aligned);
+        }
+    }
 
 
     /// A run that is part of a chunk.
@@ -128,19 +183,23 @@ namespace mitre::coupling
                                    double (&values)[dim][chunk_size + 8])
     {
       if (part.run->list)
-        for (unsigned int i = 0; i < part.n_points; ++i)
-          {
-            const double *phi =
-              part.rule->by_point.data() +
-              rule_point<dim>(points, *part.run, part.first_in_run + i) * n_nodes;
+        {
+          FourDoubles node_values[n_nodes] = {};
+          for (int a = 0; a < n_nodes; ++a)
             for (int c = 0; c < dim; ++c)
-              {
-                double sum = 0;
-                for (int a = 0; a < n_nodes; ++a)
-                  sum += phi[a] * nodal[a][c];
-                values[c][part.first_in_chunk + i] = sum;
-              }
-          }
+              node_values[a][c] = nodal[a][c];
+          for (unsigned int i = 0; i < part.n_points; ++i)
+            {
+              const double *phi =
+                part.rule->by_point.data() +
+                rule_point<dim>(points, *part.run, part.first_in_run + i) * n_nodes;
+              FourDoubles sum = node_values[0] * phi[0];
+              for (int a = 1; a < n_nodes; ++a)
+                sum += node_values[a] * phi[a];
+              for (int c = 0; c < dim; ++c)
+                values[c][part.first_in_chunk + i] = sum[c];
+            }
+        }
       else
         for (unsigned int i = 0; i < part.n_points; i += 8)
           {
@@ -161,11 +220,20 @@ namespace mitre::coupling
     }
 
 
-    /// Kernel weights and first grid points from coordinates. Bound by arithmetic.
-    template <int dim, typename Kernel>
-    inline void compute_weights(const PatchFrame<dim> &frame,
+    /// The functions of a kernel along a component's direction and across.
+    template <int n_reach>
+    struct KernelWeights
+    {
+      WeightFunction<n_reach> normal, across;
+    };
+
+
+    /// Kernel weights and first grid points from coordinates.
+    template <int dim, int n_reach>
+    inline void compute_weights(const KernelWeights<n_reach> &kernel,
+                                const PatchFrame<dim> &frame,
                                 const PaddedPatch<dim> &patch,
-                                Chunk<dim> &chunk)
+                                Chunk<dim, n_reach> &chunk)
     {
       const unsigned int n_padded = (chunk.n_points + 7) / 8 * 8;
       const double n              = patch.n_cells();
@@ -180,38 +248,33 @@ namespace mitre::coupling
               x[i] -= frame.period[d] * std::floor(x[i] / frame.period[d] +
                                                    0.5 * (1 - n / frame.period[d]));
 
+          // A component has faces in its own direction and cells' centres across.
           for (int s = 0; s < 2; ++s)
-            {
-              const double offset = patch.width - 0.5 * s;
-
-              // Round-off at the faces of the patch must not lead out of the array.
-              const double last  = patch.width + n + (s == 0 ? 1 : 0) + patch.width - 3;
-              double *const r    = chunk.r[d][s];
-              double *const root = chunk.root[d][s];
-              int *const index   = chunk.index[d][s];
-              for (unsigned int i = 0; i < n_padded; ++i)
-                {
-                  const double coordinate = x[i] + offset;
-                  double base             = Kernel::index_plus_one(coordinate);
-                  base                    = base > 1 ? base : 1;
-                  base                    = base < last ? base : last;
-                  r[i]                    = coordinate - base;
-                  root[i]                 = Kernel::root(r[i]);
-                  index[i]                = static_cast<int>(base) - 1;
-                }
-            }
+            (s == 0 ? kernel.normal
+                    : kernel.across)(x,
+                                     n_padded,
+                                     patch.width - 0.5 * s,
+                                     n + 2 * patch.width - s - n_reach / 2,
+                                     chunk.weights[d][s],
+                                     chunk.index[d][s]);
         }
 
-      for (unsigned int i = 0; i < chunk.n_points; ++i)
-        for (int d = 0; d < dim; ++d)
-          for (int s = 0; s < 2; ++s)
-            store(chunk.weights[i][d][s],
-                  Kernel::weights(chunk.r[d][s][i], chunk.root[d][s][i]));
+      for (int c = 0; c < dim; ++c)
+        {
+          const int stride_y = patch.extents[c][0],
+                    stride_z = stride_y * patch.extents[c][1];
+          const auto index = [&](const int d) { return chunk.index[d][d == c ? 0 : 1]; };
+          const int *x = index(0), *y = index(1), *z = index(dim - 1);
+          for (unsigned int i = 0; i < n_padded; ++i)
+            chunk.first_entry[c][i] =
+              x[i] + stride_y * y[i] + (dim == 3 ? stride_z * z[i] : 0);
+        }
     }
 
 
     // In what follows the component is a template argument, so that which of the two sets
     // of weights a direction takes is known to the compiler.
+
 
     /// Calls @p function with the components 0, .., dim - 1 as constants.
     template <int dim, typename Function>
@@ -224,121 +287,133 @@ namespace mitre::coupling
     }
 
 
-    /// Offset in the array of component c of the first of the 4^dim values at point i.
-    template <int dim, int c>
-    inline std::size_t first_entry(const Chunk<dim> &chunk,
-                                   const std::array<unsigned int, dim> &extents,
-                                   const unsigned int i)
+    /// Distances of neighbours in the arrays of the components.
+    template <int dim>
+    struct Strides
     {
-      const std::size_t x = chunk.index[0][c == 0 ? 0 : 1][i];
-      const std::size_t y = chunk.index[1][c == 1 ? 0 : 1][i];
-      if constexpr (dim == 2)
-        return x + extents[0] * y;
-      else
+      explicit Strides(const PaddedPatch<dim> &patch)
+      {
+        for (int c = 0; c < dim; ++c)
+          {
+            y[c] = patch.extents[c][0];
+            z[c] = y[c] * patch.extents[c][1];
+          }
+      }
+
+      std::ptrdiff_t y[dim], z[dim];
+    };
+
+
+    inline FourDoubles fold(const FourDoubles row)
+    {
+      return row;
+    }
+
+    inline FourDoubles fold(const EightDoubles row)
+    {
+      return __builtin_shufflevector(row, row, 0, 1, 2, 3) +
+             __builtin_shufflevector(row, row, 4, 5, 6, 7);
+    }
+
+
+    /// The sums of the entries of up to four rows.
+    inline FourDoubles sums_of_rows(const FourDoubles a,
+                                    const FourDoubles b,
+                                    const FourDoubles c,
+                                    const FourDoubles d)
+    {
+      const FourDoubles ab = __builtin_shufflevector(a, b, 0, 4, 2, 6) +
+                             __builtin_shufflevector(a, b, 1, 5, 3, 7);
+      const FourDoubles cd = __builtin_shufflevector(c, d, 0, 4, 2, 6) +
+                             __builtin_shufflevector(c, d, 1, 5, 3, 7);
+      return __builtin_shufflevector(ab, cd, 0, 1, 4, 5) +
+             __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
+    }
+
+
+    /// values[c][i] = velocity component c at point i. Bound by loads: n_reach^dim values
+    /// a component, in rows.
+    template <int dim, int n_reach>
+    inline void interpolate_chunk(const PaddedPatch<dim> &velocity,
+                                  Chunk<dim, n_reach> &chunk)
+    {
+      using Row = typename Chunk<dim, n_reach>::Row;
+      const Strides<dim> strides(velocity);
+      for (unsigned int i = 0; i < chunk.n_points; ++i)
         {
-          const std::size_t z = chunk.index[2][c == 2 ? 0 : 1][i];
-          return x + extents[0] * (y + extents[1] * z);
+          const Row x_weights[2] = {chunk.x_weights(0, i), chunk.x_weights(1, i)};
+          FourDoubles rows[4]    = {};
+          for_each_component<dim>([&](const auto component) {
+            constexpr int c = decltype(component)::value;
+            const double *const corner =
+              velocity.values[c].data() + chunk.first_entry[c][i];
+            const auto &y_weights   = chunk.weights[1][c == 1 ? 0 : 1];
+            const auto sum_of_plane = [&](const double *const plane) {
+              Row sum = load<Row>(plane) * y_weights[0][i];
+              for (int y = 1; y < n_reach; ++y)
+                sum += load<Row>(plane + y * strides.y[c]) * y_weights[y][i];
+              return sum;
+            };
+
+            Row sum = sum_of_plane(corner);
+            if constexpr (dim == 3)
+              {
+                const auto &z_weights = chunk.weights[2][c == 2 ? 0 : 1];
+                sum *= z_weights[0][i];
+                for (int z = 1; z < n_reach; ++z)
+                  sum += sum_of_plane(corner + z * strides.z[c]) * z_weights[z][i];
+              }
+            rows[c] = fold(sum * x_weights[c == 0 ? 0 : 1]);
+          });
+          const FourDoubles sums = sums_of_rows(rows[0], rows[1], rows[2], rows[3]);
+          for (int c = 0; c < dim; ++c)
+            chunk.values[c][i] = sums[c];
         }
     }
 
 
-    /// Four rows of four values, each weighted, as a row.
-    inline FourDoubles
-    sum_of_rows(const double *plane, const unsigned int stride, const double *weights)
+    /// The transpose of interpolate_chunk(). Bound by loads and stores. Neighbours in the
+    /// chunk are neighbours in space: points are taken from its halves in turn, as loads
+    /// wait for earlier stores that overlap them in part.
+    template <int dim, int n_reach>
+    inline void spread_chunk(const Chunk<dim, n_reach> &chunk, PaddedPatch<dim> &force)
     {
-      return (load<FourDoubles>(plane) * weights[0] +
-              load<FourDoubles>(plane + stride) * weights[1]) +
-             (load<FourDoubles>(plane + 2 * stride) * weights[2] +
-              load<FourDoubles>(plane + 3 * stride) * weights[3]);
-    }
-
-
-    /// Adds a row, weighted, to each of four rows.
-    inline void add_to_rows(double *plane,
-                            const unsigned int stride,
-                            const double *weights,
-                            const FourDoubles row)
-    {
-      store(plane, load<FourDoubles>(plane) + row * weights[0]);
-      store(plane + stride, load<FourDoubles>(plane + stride) + row * weights[1]);
-      store(plane + 2 * stride, load<FourDoubles>(plane + 2 * stride) + row * weights[2]);
-      store(plane + 3 * stride, load<FourDoubles>(plane + 3 * stride) + row * weights[3]);
-    }
-
-
-    /// values[c][i] = velocity component c at point i. Bound by loads: 4^dim values a
-    /// component, in rows of four.
-    template <int dim>
-    inline void interpolate_chunk(const PaddedPatch<dim> &velocity, Chunk<dim> &chunk)
-    {
-      for_each_component<dim>([&](const auto component) {
-        constexpr int c             = decltype(component)::value;
-        const auto &extents         = velocity.extents[c];
-        const unsigned int stride_y = extents[0], stride_z = extents[0] * extents[1];
-        const double *values        = velocity.values[c].data();
-        const unsigned int n_points = chunk.n_points;
-        for (unsigned int i = 0; i < n_points; ++i)
-          {
-            const double *corner    = values + first_entry<dim, c>(chunk, extents, i);
-            const double *weights_y = chunk.weights[i][1][c == 1 ? 0 : 1];
-
-            FourDoubles sum = sum_of_rows(corner, stride_y, weights_y);
-            if constexpr (dim == 3)
-              {
-                const double *weights_z = chunk.weights[i][2][c == 2 ? 0 : 1];
-                sum *= weights_z[0];
-                sum += sum_of_rows(corner + stride_z, stride_y, weights_y) * weights_z[1];
-                sum +=
-                  sum_of_rows(corner + 2 * stride_z, stride_y, weights_y) * weights_z[2];
-                sum +=
-                  sum_of_rows(corner + 3 * stride_z, stride_y, weights_y) * weights_z[3];
-              }
-            sum *= load<FourDoubles>(chunk.weights[i][0][c == 0 ? 0 : 1]);
-            chunk.values[c][i] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
-          }
-      });
-    }
-
-
-    /// The transpose of interpolate_chunk(). Bound by loads and stores.
-    template <int dim>
-    inline void spread_chunk(const Chunk<dim> &chunk, PaddedPatch<dim> &force)
-    {
-      for_each_component<dim>([&](const auto component) {
-        constexpr int c             = decltype(component)::value;
-        const auto &extents         = force.extents[c];
-        const unsigned int stride_y = extents[0], stride_z = extents[0] * extents[1];
-        double *values              = force.values[c].data();
-        const unsigned int n_points = chunk.n_points;
-        for (unsigned int i = 0; i < n_points; ++i)
-          {
-            double *corner          = values + first_entry<dim, c>(chunk, extents, i);
-            const double *weights_y = chunk.weights[i][1][c == 1 ? 0 : 1];
-            const FourDoubles row =
-              load<FourDoubles>(chunk.weights[i][0][c == 0 ? 0 : 1]) * chunk.values[c][i];
+      using Row = typename Chunk<dim, n_reach>::Row;
+      const Strides<dim> strides(force);
+      const unsigned int half = (chunk.n_points + 1) / 2;
+      for (unsigned int k = 0; k < chunk.n_points; ++k)
+        {
+          const unsigned int i   = k / 2 + (k % 2) * half;
+          const Row x_weights[2] = {chunk.x_weights(0, i), chunk.x_weights(1, i)};
+          for_each_component<dim>([&](const auto component) {
+            constexpr int c         = decltype(component)::value;
+            double *const corner    = force.values[c].data() + chunk.first_entry[c][i];
+            const Row row           = x_weights[c == 0 ? 0 : 1] * chunk.values[c][i];
+            const auto &y_weights   = chunk.weights[1][c == 1 ? 0 : 1];
+            const auto add_to_plane = [&](double *const plane, const Row value) {
+              for (int y = 0; y < n_reach; ++y)
+                store<Row>(plane + y * strides.y[c],
+                           load<Row>(plane + y * strides.y[c]) + value * y_weights[y][i]);
+            };
 
             if constexpr (dim == 2)
-              add_to_rows(corner, stride_y, weights_y, row);
+              add_to_plane(corner, row);
             else
               {
-                const double *weights_z = chunk.weights[i][2][c == 2 ? 0 : 1];
-                add_to_rows(corner, stride_y, weights_y, row * weights_z[0]);
-                add_to_rows(corner + stride_z, stride_y, weights_y, row * weights_z[1]);
-                add_to_rows(
-                  corner + 2 * stride_z, stride_y, weights_y, row * weights_z[2]);
-                add_to_rows(
-                  corner + 3 * stride_z, stride_y, weights_y, row * weights_z[3]);
+                const auto &z_weights = chunk.weights[2][c == 2 ? 0 : 1];
+                for (int z = 0; z < n_reach; ++z)
+                  add_to_plane(corner + z * strides.z[c], row * z_weights[z][i]);
               }
-          }
-      });
+          });
+        }
     }
 
 
     /// Calls @p function with chunks that are made of the runs of patch p.
-    template <int dim, int n_nodes, typename Function>
+    template <int dim, int n_nodes, int n_reach, typename Function>
     inline void for_each_chunk(PartPoints<dim> &points,
                                const unsigned int p,
-                               Chunk<dim> &chunk,
+                               Chunk<dim, n_reach> &chunk,
                                const Function &function)
     {
       std::array<RunInChunk<dim>, chunk_size> parts;
@@ -356,12 +431,12 @@ namespace mitre::coupling
       for (unsigned int r = points.run_starts()[p]; r < points.run_starts()[p + 1]; ++r)
         {
           const auto &run            = points.runs()[r];
-          const PointRule<dim> &rule = points.rules().get(run.k);
+          const PointRule<dim> &rule = points.rule(run);
 
           double X[n_nodes][dim];
           for (int a = 0; a < n_nodes; ++a)
             for (int c = 0; c < dim; ++c)
-              X[a][c] = positions[points.elements().nodes(run.element)[a] * dim + c];
+              X[a][c] = positions[points.nodes(run)[a] * dim + c];
 
           for (unsigned int done = 0; done < run.n_points;)
             {
@@ -387,18 +462,24 @@ namespace mitre::coupling
     }
 
 
-    template <int dim, int n_nodes, typename Kernel>
+    /// A value for each node of an element. Triangles have room for a fourth.
+    template <int n_nodes>
+    using NodeValues = std::conditional_t<n_nodes == 8, EightDoubles, FourDoubles>;
+
+
+    template <int dim, int n_nodes, int n_reach>
     void interpolate(PartPoints<dim> &points,
+                     const KernelWeights<n_reach> &kernel,
                      const PatchFrame<dim> &frame,
                      const unsigned int p,
                      const PaddedPatch<dim> &velocity,
                      double *moments)
     {
-      static thread_local Chunk<dim> chunk;
-      for_each_chunk<dim, n_nodes>(
+      static thread_local Chunk<dim, n_reach> chunk;
+      for_each_chunk<dim, n_nodes, n_reach>(
         points, p, chunk, [&](const RunInChunk<dim> *parts, const unsigned int n_parts) {
           // Step 1: velocities at the points.
-          compute_weights<dim, Kernel>(frame, velocity, chunk);
+          compute_weights(kernel, frame, velocity, chunk);
           interpolate_chunk(velocity, chunk);
 
           // Step 2: moments of each element.
@@ -408,21 +489,17 @@ namespace mitre::coupling
               const double *weights =
                 points.weights().data() + run.first_point + parts[part].first_in_run;
 
-              double sums[dim][n_nodes] = {};
+              NodeValues<n_nodes> sums[dim] = {};
               for (unsigned int i = 0; i < parts[part].n_points; ++i)
                 {
-                  const double *phi =
+                  const auto phi = load<NodeValues<n_nodes>>(
                     parts[part].rule->by_point.data() +
-                    rule_point<dim>(points, run, parts[part].first_in_run + i) * n_nodes;
+                    rule_point<dim>(points, run, parts[part].first_in_run + i) * n_nodes);
                   for (int c = 0; c < dim; ++c)
-                    {
-                      const double value =
-                        weights[i] * chunk.values[c][parts[part].first_in_chunk + i];
-                      for (int a = 0; a < n_nodes; ++a)
-                        sums[c][a] += phi[a] * value;
-                    }
+                    sums[c] += phi * (weights[i] *
+                                      chunk.values[c][parts[part].first_in_chunk + i]);
                 }
-              const unsigned int *nodes = points.elements().nodes(run.element);
+              const unsigned int *nodes = points.nodes(run);
               for (int a = 0; a < n_nodes; ++a)
                 for (int c = 0; c < dim; ++c)
                   moments[nodes[a] * dim + c] += sums[c][a];
@@ -431,21 +508,22 @@ namespace mitre::coupling
     }
 
 
-    template <int dim, int n_nodes, typename Kernel>
+    template <int dim, int n_nodes, int n_reach>
     void spread(PartPoints<dim> &points,
+                const KernelWeights<n_reach> &kernel,
                 const PatchFrame<dim> &frame,
                 const unsigned int p,
                 const double *densities,
                 PaddedPatch<dim> &force)
     {
-      static thread_local Chunk<dim> chunk;
-      for_each_chunk<dim, n_nodes>(
+      static thread_local Chunk<dim, n_reach> chunk;
+      for_each_chunk<dim, n_nodes, n_reach>(
         points, p, chunk, [&](const RunInChunk<dim> *parts, const unsigned int n_parts) {
           // Step 1: forces at the points.
           for (unsigned int part = 0; part < n_parts; ++part)
             {
               const auto &run           = *parts[part].run;
-              const unsigned int *nodes = points.elements().nodes(run.element);
+              const unsigned int *nodes = points.nodes(run);
               double F[n_nodes][dim];
               for (int a = 0; a < n_nodes; ++a)
                 for (int c = 0; c < dim; ++c)
@@ -463,7 +541,7 @@ namespace mitre::coupling
             }
 
           // Step 2: to the grid.
-          compute_weights<dim, Kernel>(frame, force, chunk);
+          compute_weights(kernel, frame, force, chunk);
           spread_chunk(chunk, force);
         });
     }
@@ -475,6 +553,9 @@ namespace mitre::coupling
     {
       switch (n_nodes)
         {
+          case 1:
+            function(std::integral_constant<int, 1>());
+            break;
           case dim + 1:
             function(std::integral_constant<int, dim + 1>());
             break;
@@ -485,21 +566,35 @@ namespace mitre::coupling
             AssertThrow(false, dealii::ExcNotImplemented());
         }
     }
+
+
+    /// Call @p function with the functions of a kernel.
+    template <typename Function>
+    void with_weights(const std::string &name, const Function &function)
+    {
+      with_kernel(name, [&](const auto kernel) {
+        using Kernel          = std::decay_t<decltype(kernel)>;
+        constexpr int n_reach = Kernel::Normal::n_points <= 4 ? 4 : 6;
+        function(
+          KernelWeights<n_reach>{&weights_of_kernel<typename Kernel::Normal, n_reach>,
+                                 &weights_of_kernel<typename Kernel::Across, n_reach>});
+      });
+    }
   } // namespace
 
 
   template <int dim>
   void interpolate_patch(PartPoints<dim> &points,
-                         const std::string &kernel,
+                         const std::string &kernel_name,
                          const PatchFrame<dim> &frame,
                          const unsigned int p,
                          const PaddedPatch<dim> &velocity,
                          double *moments)
   {
-    with_kernel(kernel, [&](const auto kernel_object) {
-      with_n_nodes<dim>(points.body().mesh().nodes_per_element, [&](const auto n_nodes) {
-        interpolate<dim, decltype(n_nodes)::value, std::decay_t<decltype(kernel_object)>>(
-          points, frame, p, velocity, moments);
+    with_weights(kernel_name, [&](const auto &kernel) {
+      with_n_nodes<dim>(points.nodes_per_run(), [&](const auto n_nodes) {
+        interpolate<dim, decltype(n_nodes)::value>(
+          points, kernel, frame, p, velocity, moments);
       });
     });
   }
@@ -507,16 +602,15 @@ namespace mitre::coupling
 
   template <int dim>
   void spread_patch(PartPoints<dim> &points,
-                    const std::string &kernel,
+                    const std::string &kernel_name,
                     const PatchFrame<dim> &frame,
                     const unsigned int p,
                     const double *densities,
                     PaddedPatch<dim> &force)
   {
-    with_kernel(kernel, [&](const auto kernel_object) {
-      with_n_nodes<dim>(points.body().mesh().nodes_per_element, [&](const auto n_nodes) {
-        spread<dim, decltype(n_nodes)::value, std::decay_t<decltype(kernel_object)>>(
-          points, frame, p, densities, force);
+    with_weights(kernel_name, [&](const auto &kernel) {
+      with_n_nodes<dim>(points.nodes_per_run(), [&](const auto n_nodes) {
+        spread<dim, decltype(n_nodes)::value>(points, kernel, frame, p, densities, force);
       });
     });
   }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include <mitre/coupling/point_rules.h>
 
@@ -14,12 +16,52 @@ namespace mitre::coupling
     using dealii::Quadrature;
 
 
-    template <int dim>
-    Quadrature<dim> simplex_rule(const unsigned int k)
+    /// A rule of Witherden and Vincent, and the radius of its largest hole in the regular
+    /// simplex with edges of length 1.
+    struct SimplexRule
     {
-      if (k == 2)
-        return dealii::QWitherdenVincentSimplex<dim>(1, false);
-      return dealii::QWitherdenVincentSimplex<dim>(k);
+      unsigned int n_points_1d;
+      bool odd_degree;
+      unsigned int n_points;
+      double hole;
+    };
+
+    /// Those that no other rule of as few points betters.
+    template <int dim>
+    const std::vector<SimplexRule> &simplex_rules()
+    {
+      static const std::vector<SimplexRule> rules =
+        dim == 2 ? std::vector<SimplexRule>{{1, false, 3, 0.2887},
+                                            {2, false, 6, 0.1999},
+                                            {3, false, 12, 0.1695},
+                                            {4, true, 15, 0.1590},
+                                            {4, false, 16, 0.1434},
+                                            {5, true, 19, 0.1303},
+                                            {5, false, 25, 0.1205},
+                                            {6, true, 28, 0.1099},
+                                            {6, false, 33, 0.1072},
+                                            {7, true, 37, 0.1008}}
+                 : std::vector<SimplexRule>{{1, false, 4, 0.3386},
+                                            {2, true, 8, 0.2909},
+                                            {3, true, 14, 0.2272},
+                                            {3, false, 24, 0.1895},
+                                            {4, true, 35, 0.1706},
+                                            {4, false, 46, 0.1573},
+                                            {5, true, 59, 0.1360}};
+      return rules;
+    }
+
+
+    /// The radius of the largest hole between k^dim Gauss points in the unit cube.
+    template <int dim>
+    double largest_hole(const unsigned int k)
+    {
+      const dealii::QGauss<1> rule(k);
+      double half_distance = rule.point(0)[0];
+      for (unsigned int i = 1; i < k; ++i)
+        half_distance =
+          std::max(half_distance, 0.5 * (rule.point(i)[0] - rule.point(i - 1)[0]));
+      return half_distance * std::sqrt(1. * dim);
     }
 
 
@@ -84,12 +126,23 @@ namespace mitre::coupling
     if (shape == structure::ElementShape::hypercube)
       return dealii::QGauss<dim>(k);
 
-    // The largest rule that there is.
-    constexpr unsigned int largest = dim == 2 ? 7 : 5;
-    if (k <= largest)
-      return simplex_rule<dim>(k);
-    const unsigned int m = (k + largest - 1) / largest;
-    return subdivide(simplex_rule<dim>((k + m - 1) / m), m);
+    const double hole = largest_hole<dim>(k);
+    SimplexRule best{};
+    unsigned int best_parts = 0;
+    std::size_t fewest      = std::numeric_limits<std::size_t>::max();
+    for (const SimplexRule &rule : simplex_rules<dim>())
+      {
+        const unsigned int m = std::ceil(rule.hole / hole);
+        const std::size_t n  = rule.n_points * dealii::Utilities::pow(m, dim);
+        if (n < fewest)
+          {
+            best       = rule;
+            best_parts = m;
+            fewest     = n;
+          }
+      }
+    const dealii::QWitherdenVincentSimplex<dim> rule(best.n_points_1d, best.odd_degree);
+    return best_parts == 1 ? Quadrature<dim>(rule) : subdivide<dim>(rule, best_parts);
   }
 
 
@@ -105,6 +158,17 @@ namespace mitre::coupling
       for (unsigned int q = 0; q < n_padded; ++q)
         by_node.push_back(table.values[(q < n_points ? q : 0) * table.n_nodes + a]);
     by_point = table.values;
+    by_point.resize(by_point.size() + 3);
+  }
+
+
+  template <int dim>
+  PointRule<dim>::PointRule()
+    : n_points(1)
+    , n_padded(8)
+    , by_node(8, 1.)
+    , by_point{1., 0., 0., 0.}
+  {
   }
 
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include <mitre/coupling/kernels.h>
 #include <mitre/coupling/point_rules.h>
 #include <mitre/coupling/refinement.h>
 
@@ -95,11 +96,12 @@ namespace mitre::coupling
     double smallest_h = std::numeric_limits<double>::max();
     for (unsigned int d = 0; d < dim; ++d)
       smallest_h = std::min(smallest_h, grid.cell_width(level, d));
+    const double kernel_reach = kernel_halo_width(parameters.kernel);
     std::vector<double> rule_sizes;
 
     for (unsigned int e = 0; e < mesh.n_elements(); ++e)
       {
-        // Step 1: the box that kernels at its points reach, two spacings each way.
+        // Step 1: the box that kernels at its points reach.
         dealii::Point<dim> lower, upper;
         double longest = 0;
         for (unsigned int d = 0; d < dim; ++d)
@@ -117,7 +119,7 @@ namespace mitre::coupling
         const dealii::Point<dim> centroid(0.5 * (lower + upper));
         for (unsigned int d = 0; d < dim; ++d)
           {
-            const double reach = (2 + buffer) * grid.cell_width(level, d);
+            const double reach = (kernel_reach + buffer) * grid.cell_width(level, d);
             lower[d] -= reach;
             upper[d] += reach;
           }
@@ -131,7 +133,7 @@ namespace mitre::coupling
         // Step 3: its points, at about the density that PartPoints will choose.
         const unsigned int k =
           std::min(64u,
-                   std::max(mesh.shape == structure::ElementShape::simplex ? 1u : 2u,
+                   std::max(2u,
                             static_cast<unsigned int>(std::ceil(parameters.point_density *
                                                                 longest / smallest_h))));
         if (k >= rule_sizes.size())

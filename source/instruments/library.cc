@@ -1,6 +1,7 @@
 #include <mitre/instruments/energy.h>
 #include <mitre/instruments/flow_meter.h>
 #include <mitre/instruments/instrument.h>
+#include <mitre/instruments/leak.h>
 #include <mitre/instruments/part_extent.h>
 #include <mitre/instruments/part_force.h>
 #include <mitre/instruments/part_volume.h>
@@ -33,6 +34,8 @@ namespace mitre::instruments
         "smallest, mean and largest stress, strain and stretch of fibres, and "
         "percentiles, "
         "by material");
+      instruments.template add<Leak<dim>>(
+        "leak", "flow of the fluid through a part that should be tight");
       instruments.template add<Energy<dim>>(
         "energy", "kinetic energy of the fluid and strain energy of the parts");
       return instruments;

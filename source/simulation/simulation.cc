@@ -303,6 +303,9 @@ namespace mitre::simulation
         body_parameters.parse_parameters(prm, name);
         Part part;
         part.coupling_parameters.parse_parameters(prm);
+        // Forces that are spread from nodes balance with lumped masses.
+        if (part.coupling_parameters.points == coupling::PointChoice::nodes)
+          body_parameters.consistent_mass = false;
         const int finest = patch_grid->maximum_level();
         if (part.coupling_parameters.level > finest)
           throw base::UserError("Part " + name + ": \"Grid level\" is " +
@@ -392,7 +395,7 @@ namespace mitre::simulation
       }
     kernel_halo =
       std::make_unique<grid::VelocityHalo<dim>>(fluid->space(),
-                                                coupling::kernel_halo_width,
+                                                fe_coupling->halo_width(),
                                                 grid::HaloShape::full,
                                                 grid::BoundaryExtension::reflection);
     kernel_halo->make_own_partitioner();
@@ -453,6 +456,18 @@ namespace mitre::simulation
 
 
   template <int dim>
+  void Simulation<dim>::set_kernel_boundary_values(const double t)
+  {
+    if (boundary_conditions.all_velocities_zero())
+      return;
+    kernel_halo->set_boundary_values([this, t](const grid::BoundaryTerm<dim> &term) {
+      return boundary_conditions.condition(term.condition)
+        .velocity(term.x, term.component, t);
+    });
+  }
+
+
+  template <int dim>
   void Simulation<dim>::step(const double dt)
   {
     if (parts.empty())
@@ -473,6 +488,7 @@ namespace mitre::simulation
 
         // (2.14), (2.23): to the middle of the step with the velocity at its beginning
         fe_coupling->update_points(positions);
+        set_kernel_boundary_values(current_time);
         fe_coupling->interpolate(fluid->velocity(), velocities);
         if (fluid->is_first_step())
           {
@@ -493,6 +509,7 @@ namespace mitre::simulation
         // (2.19)
         middle_velocity = fluid->velocity();
         middle_velocity.sadd(0.5, 0.5, fluid->previous_velocity());
+        set_kernel_boundary_values(current_time + 0.5 * dt);
         fe_coupling->interpolate(middle_velocity, velocities);
         for (Part &part : parts)
           part.X.add(dt, part.U);
@@ -581,12 +598,15 @@ namespace mitre::simulation
 
 
   template <int dim>
-  instruments::Observation<dim> Simulation<dim>::observation() const
+  instruments::Observation<dim> Simulation<dim>::observation()
   {
     instruments::Observation<dim> result;
-    result.time  = current_time;
-    result.dt    = current_time - last_measured;
-    result.fluid = fluid.get();
+    result.time     = current_time;
+    result.dt       = current_time - last_measured;
+    result.fluid    = fluid.get();
+    result.coupling = parts.empty() ? nullptr : fe_coupling.get();
+    if (!parts.empty())
+      set_kernel_boundary_values(current_time);
     for (const Part &part : parts)
       result.parts.push_back({part.body.get(), &part.X, &part.U});
     return result;
@@ -607,6 +627,8 @@ namespace mitre::simulation
       for (const auto &constraint : part.body->constraints())
         columns.push_back(part.body->name() + " " + constraint.name +
                           " displacement [cm]");
+    for (const Part &part : parts)
+      columns.push_back(part.body->name() + " point spacing [cells]");
     for (const std::string &column : instruments.columns())
       columns.push_back(column);
     return columns;
@@ -627,10 +649,36 @@ namespace mitre::simulation
       for (const double displacement :
            part.body->compute_constraint_displacements(part.X, current_time))
         values.push_back(displacement);
+    measure_point_spacing(values);
     for (const double value : instruments.measure(observation()))
       values.push_back(value);
     statistics->write(values);
     last_measured = current_time;
+  }
+
+
+  // Fluid passes between points that are farther apart than about the grid's spacing.
+  template <int dim>
+  void Simulation<dim>::measure_point_spacing(std::vector<double> &values)
+  {
+    for (unsigned int i = 0; i < parts.size(); ++i)
+      {
+        const double spacing = fe_coupling->largest_spacing(i);
+        values.push_back(spacing);
+        if (root && spacing > 1. && !parts[i].spacing_is_warned_of)
+          {
+            std::cout << "Warning: at t = " << current_time << " s, points of part "
+                      << parts[i].body->name() << " are " << std::setprecision(3)
+                      << spacing << std::setprecision(6)
+                      << " grid spacings apart; fluid may pass between them. "
+                      << (parts[i].coupling_parameters.points ==
+                              coupling::PointChoice::nodes
+                            ? "\"Coupling = elemental\" or a finer mesh prevents it."
+                            : "A larger \"Point density\" prevents it.")
+                      << std::endl;
+            parts[i].spacing_is_warned_of = true;
+          }
+      }
   }
 
 
@@ -779,6 +827,13 @@ namespace mitre::simulation
           {
             write_fields();
             ++n_outputs;
+          }
+        if (!parts.empty())
+          {
+            std::vector<const structure::VectorType *> positions;
+            for (const Part &part : parts)
+              positions.push_back(&part.X);
+            fe_coupling->update_points(positions);
           }
         measure(0, 0.);
         statistics_clock = wall_clock();

@@ -60,13 +60,6 @@ namespace mitre::simulation
     }
 
 
-    /// Reach of a kernel in grid spacings.
-    double kernel_reach(const std::string &kernel)
-    {
-      return kernel == coupling::kernels::IB3::name ? 1.5 : coupling::kernel_halo_width;
-    }
-
-
     template <int dim>
     double longest_edge(const structure::Mesh<dim> &mesh, const unsigned int e)
     {
@@ -198,7 +191,7 @@ namespace mitre::simulation
 
     // Step 2: distance to the walls.
     const auto &[box_lower, box_upper] = grid.box().get_boundary_points();
-    const double reach                 = kernel_reach(part.coupling.kernel);
+    const double reach                 = coupling::kernel_reach(part.coupling.kernel);
     std::string distances;
     double largest_share = 0.;
     for (unsigned int d = 0; d < dim; ++d)
@@ -240,7 +233,7 @@ namespace mitre::simulation
                     const grid::PatchGrid<dim> &grid,
                     Findings &findings)
   {
-    const double reach         = kernel_reach(part.coupling.kernel);
+    const double reach         = coupling::kernel_reach(part.coupling.kernel);
     const auto &elements       = part.body.elements();
     const auto &[lower, upper] = grid.box().get_boundary_points();
     std::uint64_t n_mixed      = 0;

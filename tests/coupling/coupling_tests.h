@@ -33,10 +33,11 @@ namespace coupling_tests
     BodyInBox(const ElementShape shape,
               const unsigned int n,
               const Point<dim> &lower,
-              const double size)
+              const double size,
+              const double mass_tolerance = 1e-14)
     {
       auto parameters           = structure_tests::make_parameters<dim>();
-      parameters.mass_tolerance = 1e-14;
+      parameters.mass_tolerance = mass_tolerance;
       body                      = std::make_unique<structure::Body<dim>>(
         parameters, structure_tests::make_box<dim>(shape, n), MPI_COMM_WORLD);
       body->initialize_vector(X);
@@ -65,13 +66,14 @@ namespace coupling_tests
          const std::string &periodic,
          const std::function<int(const grid::PatchGrid<dim> &,
                                  const dealii::BoundingBox<dim> &)> &wanted_level,
-         const unsigned int width = coupling::kernel_halo_width)
+         const unsigned int width      = 3,
+         const grid::BoundaryKind kind = grid::BoundaryKind::velocity)
       : patches(MPI_COMM_WORLD, grid_tests::unit_box<dim>(n, levels, periodic))
     {
       patches.adapt(
         [&](const dealii::BoundingBox<dim> &box) { return wanted_level(patches, box); });
       space = std::make_unique<grid::StaggeredSpace<dim>>(
-        patches, grid_tests::all_sides<dim>(grid::BoundaryKind::velocity));
+        patches, grid_tests::all_sides<dim>(kind));
       halo = std::make_unique<grid::VelocityHalo<dim>>(
         *space, width, grid::HaloShape::full, grid::BoundaryExtension::reflection);
       halo->make_own_partitioner();

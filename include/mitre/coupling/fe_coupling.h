@@ -2,6 +2,7 @@
 #define mitre_coupling_fe_coupling_h
 
 #include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/tensor.h>
 
 #include <memory>
 #include <string>
@@ -23,6 +24,8 @@ namespace mitre::coupling
 
     std::string kernel = "IB_4";
 
+    PointChoice points = PointChoice::quadrature;
+
     /// Level of the grid about the part; -1: the finest.
     int level = -1;
 
@@ -36,7 +39,10 @@ namespace mitre::coupling
    * Interaction of finite element bodies with the staggered velocity (2.37)-(2.44): the
    * force density of a body is evaluated at quadrature points and spread to the faces;
    * the velocity is interpolated to the same points and projected onto the body's shape
-   * functions. Both use the points of the last update_points(), so that they are adjoint,
+   * functions. Parts whose points are their nodes (PointChoice::nodes) take the velocity
+   * there, and spread the force density times the row sums of the mass matrix from there:
+   * cheaper, but only tight where the elements are smaller than the grid's cells. Both
+   * directions use the points of the last update_points(), so that they are adjoint,
    * @f$ (S F, u)_{grid} = (F, R u)_{body} @f$.
    *
    * Vectors of parts are those of structure::Body, one for each part, in the order of
@@ -50,6 +56,9 @@ namespace mitre::coupling
 
     /// @p body must outlive this object.
     void add_part(const structure::Body<dim> &body, const CouplingParameters &parameters);
+
+    /// The layers about patches that the kernels of all parts need.
+    unsigned int halo_width() const;
 
     unsigned int n_parts() const
     {
@@ -65,7 +74,7 @@ namespace mitre::coupling
      * To be called when the grid has changed, after the bodies have been distributed
      * anew.
      * @p halo, which must outlive the next call, has its own partitioner, full shape and
-     * a width of kernel_halo_width at least.
+     * a width of halo_width() at least.
      */
     void reinit(grid::VelocityHalo<dim> &halo);
 
@@ -93,8 +102,11 @@ namespace mitre::coupling
 
     /**
      * Nodal velocities [cm/s] from the grid velocity @p u (2.41): projections onto the
-     * shape functions of each body. On entry @p U holds a first guess, such as the
-     * velocities of the last step. Collective.
+     * shape functions of each body, or, where nodes are the points, the velocities there.
+     * On entry @p U holds a first guess, such as the
+     * velocities of the last step. Next to boundaries with given velocity, the prescribed
+     * values count that the halo knows (grid::VelocityHalo::set_boundary_values()); none
+     * stand for walls at rest. Collective.
      */
     void interpolate(const VectorType &u, const std::vector<VectorType *> &U);
 
@@ -110,6 +122,24 @@ namespace mitre::coupling
     void spread(const std::vector<const VectorType *> &F,
                 VectorType &f,
                 VectorType *total = nullptr);
+
+    /// The distance of a part's points along edges of its elements in grid spacings,
+    /// where it is largest (PartPoints::largest_spacing()). Collective.
+    double largest_spacing(const unsigned int part) const
+    {
+      return parts[part].points->largest_spacing();
+    }
+
+    /**
+     * The velocity @p u at @p points, which are the same on all ranks, interpolated by
+     * composite B-splines (CBS32): if u is free of divergence, so is the result, whatever
+     * the kernels of the parts. Returns the velocities of those points that lie in owned
+     * patches, with their numbers.
+     * Collective.
+     */
+    std::vector<std::pair<std::size_t, dealii::Tensor<1, dim>>>
+    velocities_at(const VectorType &u,
+                  const std::vector<dealii::Point<dim>> &points) const;
 
     /// Number of quadrature points in owned patch @p p.
     std::size_t n_points(const unsigned int p) const;

@@ -14,13 +14,22 @@ namespace mitre::coupling
   using structure::VectorType;
 
 
+  /// Where a body meets the grid.
+  enum class PointChoice : unsigned char
+  {
+    quadrature, ///< at quadrature points in its elements, as dense as these are large
+    nodes       ///< at its nodes, with the row sums of the mass matrix as weights
+  };
+
+
   /**
    * The quadrature points of one body that lie in patches of this rank, at given node
    * positions. A rank works on all elements that may have points in its patches; each
    * point belongs to the one rank that owns its patch.
    *
    * Points are kept as runs: points of one element in one patch. Their positions follow
-   * from those of the nodes when they are needed.
+   * from those of the nodes when they are needed. Where nodes are the points, a run is a
+   * node.
    */
   template <int dim>
   class PartPoints
@@ -30,7 +39,7 @@ namespace mitre::coupling
     {
       unsigned int patch;
 
-      /// Local number of the element.
+      /// Local number of the element, or of the node.
       unsigned int element;
 
       /// Number of points along an edge, which stands for the rule.
@@ -50,7 +59,8 @@ namespace mitre::coupling
     /// @param density points for each grid spacing along the longest edge of an element
     PartPoints(const grid::PatchGrid<dim> &grid,
                const structure::Body<dim> &body,
-               const double density);
+               const double density,
+               const PointChoice choice = PointChoice::quadrature);
 
     const structure::Body<dim> &body() const
     {
@@ -106,15 +116,33 @@ namespace mitre::coupling
       return elements_;
     }
 
+    /// Local numbers of the nodes on which the points of @p run depend, and how many.
+    const unsigned int *nodes(const Run &run) const
+    {
+      return choice == PointChoice::nodes ? &run.element : elements_.nodes(run.element);
+    }
+
+    unsigned int nodes_per_run() const
+    {
+      return choice == PointChoice::nodes ? 1 : body_.mesh().nodes_per_element;
+    }
+
+    const PointRule<dim> &rule(const Run &run)
+    {
+      return choice == PointChoice::nodes ? node_rule : rules_.get(run.k);
+    }
+
+    /**
+     * The largest distance of points along an edge of an element in spacings of the grid
+     * there: length over number of points at the last update(). Fluid passes between
+     * points that are more than about one spacing apart. Collective.
+     */
+    double largest_spacing() const;
+
     /// Node positions of update(), by local node and component.
     const double *positions() const
     {
       return positions_.begin();
-    }
-
-    PointRules<dim> &rules()
-    {
-      return rules_;
     }
 
     std::size_t n_points() const
@@ -125,6 +153,14 @@ namespace mitre::coupling
   private:
     void find_runs();
 
+    void find_nodes();
+
+    /// Whether a box lies in owned patch @p p, away from its faces, where round-off would
+    /// decide.
+    bool lies_in_patch(const dealii::Point<dim> &lower,
+                       const dealii::Point<dim> &upper,
+                       const unsigned int p) const;
+
     void find_points_one_by_one(const unsigned int i,
                                 const unsigned int k,
                                 const PointRule<dim> &rule);
@@ -134,12 +170,16 @@ namespace mitre::coupling
     const grid::PatchGrid<dim> &grid;
     const structure::Body<dim> &body_;
     const double density;
+    const PointChoice choice;
     PointRules<dim> rules_;
+    const PointRule<dim> node_rule;
 
     /// The elements that may have points here, the smallest spacing about each of them,
+    /// the least k with which its rule integrates products of linear fields exactly,
     /// whether this rank counts its points, and its reference Jacobian (simplices).
     structure::ElementSet<dim> elements_;
     std::vector<double> spacings;
+    std::vector<unsigned char> smallest_k;
     std::vector<bool> counted;
     std::vector<double> jacobians;
     bool elements_are_known = false;
@@ -152,15 +192,19 @@ namespace mitre::coupling
     std::vector<unsigned int> run_starts_;
     std::vector<std::uint16_t> selected_;
     std::vector<double> weights_;
-    std::size_t n_points_ = 0;
+    std::size_t n_points_   = 0;
+    double largest_spacing_ = 0;
+
+    /// Row sums of the mass matrix by local node, where nodes are the points.
+    VectorType node_weights;
 
     /// Number of points that counted elements have on all ranks together, and what went
     /// wrong.
     std::uint64_t n_expected_points = 0;
     std::string error;
 
-    /// Work space: patch of each point of an element.
-    std::vector<unsigned int> point_patches;
+    /// Work space: patch of each point of an element, and the patches found so far.
+    std::vector<unsigned int> point_patches, candidates;
   };
 } // namespace mitre::coupling
 

@@ -12,6 +12,12 @@ namespace mitre::fluid
   class NavierStokes;
 }
 
+namespace mitre::coupling
+{
+  template <int dim>
+  class FECoupling;
+}
+
 namespace mitre::instruments
 {
   /// A part, the positions X [cm] and the velocities U [cm/s] of its nodes.
@@ -37,6 +43,9 @@ namespace mitre::instruments
     const fluid::NavierStokes<dim> *fluid = nullptr;
 
     std::vector<ObservedPart<dim>> parts;
+
+    /// How the parts meet the fluid; null if there are none.
+    const coupling::FECoupling<dim> *coupling = nullptr;
 
     /// The part @p name; base::UserError, which names @p instrument, if there is none.
     const ObservedPart<dim> &find_part(const std::string &name,

@@ -107,6 +107,7 @@ namespace mitre::simulation
     {
       std::unique_ptr<structure::Body<dim>> body;
       coupling::CouplingParameters coupling_parameters;
+      bool spacing_is_warned_of = false;
 
       /// Positions at the beginning and in the middle of the step [cm], velocity [cm/s]
       /// and force density [dyn/cm^dim].
@@ -154,6 +155,12 @@ namespace mitre::simulation
     bool regrid();
     double next_time_step() const;
     void step(const double dt);
+
+    /// What boundary conditions prescribe at @p t, for interpolation next to them.
+    void set_kernel_boundary_values(const double t);
+
+    /// Adds the column of each part to @p values, and warns once of too wide a spacing.
+    void measure_point_spacing(std::vector<double> &values);
     void check_courant_number() const;
     void distribute_parts(const std::vector<std::vector<unsigned int>> &node_owners = {});
     void setup_coupling();
@@ -162,7 +169,7 @@ namespace mitre::simulation
     void measure(const unsigned int iterations, const double wall_time);
     void write_fields();
     std::vector<std::string> statistics_columns() const;
-    instruments::Observation<dim> observation() const;
+    instruments::Observation<dim> observation();
 
     const MPI_Comm communicator;
     const bool root;
