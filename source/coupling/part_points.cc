@@ -220,14 +220,19 @@ namespace mitre::coupling
         node_weights.update_ghost_values();
       }
     elements_are_known = true;
+    positions_at_update.clear();
   }
 
 
   template <int dim>
   void PartPoints<dim>::update(const VectorType &X)
   {
-    // Step 1: the elements to look at.
+    // Step 1: the elements to look at. Rigid bodies often stay where they are.
     bool must_find = !elements_are_known;
+    bool moved =
+      must_find || !body_.is_rigid() ||
+      !std::equal(
+        X.begin(), X.end(), positions_at_update.begin(), positions_at_update.end());
     if (elements_are_known)
       {
         double largest_square = 0;
@@ -246,8 +251,19 @@ namespace mitre::coupling
           }
         must_find = !(largest_square <= margin * margin);
       }
-    if (dealii::Utilities::MPI::logical_or(must_find, grid.communicator()))
+    const std::array<unsigned int, 2> flags_here = {
+      {must_find ? 1u : 0u, moved ? 1u : 0u}};
+    std::array<unsigned int, 2> flags;
+    dealii::Utilities::MPI::max(
+      dealii::ArrayView<const unsigned int>(flags_here.data(), 2),
+      grid.communicator(),
+      dealii::ArrayView<unsigned int>(flags.data(), 2));
+    if (flags[0] == 0 && flags[1] == 0)
+      return;
+    if (flags[0] != 0)
       find_elements(X);
+    if (body_.is_rigid())
+      positions_at_update.assign(X.begin(), X.end());
 
     positions_.zero_out_ghost_values();
     for (unsigned int i = 0; i < X.locally_owned_size(); ++i)

@@ -52,8 +52,10 @@ namespace mitre::instruments
                 base::UserError("Instrument " + name + ": part " + part +
                                 " has no constraints or loads, whose forces could be "
                                 "summed."));
-    const dealii::Tensor<1, dim> force =
-      -body.compute_total_external_force(*observed.X, *observed.U, observation.time);
+    const dealii::Tensor<1, dim> force = -body.compute_total_external_force(
+      observed.pulled != nullptr ? *observed.pulled : *observed.X,
+      *observed.U,
+      observation.time);
 
     std::vector<double> result;
     for (unsigned int c = 0; c < dim; ++c)

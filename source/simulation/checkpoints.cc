@@ -171,6 +171,9 @@ namespace mitre::simulation
         const std::size_t n      = part.body->mesh().nodes.size() * dim;
         part.body->from_mesh_order(state.get(prefix + "positions [cm]", n), part.X);
         part.body->from_mesh_order(state.get(prefix + "velocities [cm/s]", n), part.U);
+        if (part.body->is_rigid())
+          part.body->from_mesh_order(state.get(prefix + "pulled positions [cm]", n),
+                                     part.pulled);
       }
   }
 
@@ -320,6 +323,9 @@ namespace mitre::simulation
         const std::string prefix                    = "part " + part.body->name() + " ";
         state.numbers[prefix + "positions [cm]"]    = part.body->to_mesh_order(part.X);
         state.numbers[prefix + "velocities [cm/s]"] = part.body->to_mesh_order(part.U);
+        if (part.body->is_rigid())
+          state.numbers[prefix + "pulled positions [cm]"] =
+            part.body->to_mesh_order(part.pulled);
         state.numbers[prefix + "elastic force density [dyn/cm^dim]"] =
           part.body->to_mesh_order(part.body->elastic_force_density());
         state.numbers[prefix + "positions at regrid [cm]"] = positions_at_regrid[i];
@@ -389,11 +395,13 @@ namespace mitre::simulation
     fluid->save(before_step.fluid);
     before_step.X.resize(parts.size());
     before_step.U.resize(parts.size());
+    before_step.pulled.resize(parts.size());
     before_step.elastic_force_density.resize(parts.size());
     for (unsigned int i = 0; i < parts.size(); ++i)
       {
         before_step.X[i]                     = parts[i].X;
         before_step.U[i]                     = parts[i].U;
+        before_step.pulled[i]                = parts[i].pulled;
         before_step.elastic_force_density[i] = parts[i].body->elastic_force_density();
       }
     before_step.time_step       = time_step;
@@ -410,8 +418,9 @@ namespace mitre::simulation
     fluid->restore(before_step.fluid);
     for (unsigned int i = 0; i < parts.size(); ++i)
       {
-        parts[i].X = before_step.X[i];
-        parts[i].U = before_step.U[i];
+        parts[i].X      = before_step.X[i];
+        parts[i].U      = before_step.U[i];
+        parts[i].pulled = before_step.pulled[i];
         parts[i].body->set_elastic_force_density(before_step.elastic_force_density[i]);
       }
   }

@@ -342,6 +342,11 @@ namespace mitre::simulation
         part.body->initialize_vector(part.X);
         part.body->set_to_reference_positions(part.X);
         part.body->initialize_vector(part.U);
+        if (part.body->is_rigid())
+          {
+            part.body->set_to_held_positions(start_time, part.X);
+            part.pulled = part.X;
+          }
         parts.push_back(std::move(part));
       }
   }
@@ -389,7 +394,9 @@ namespace mitre::simulation
             return node_owners.empty() ? fe_coupling->owners_of(points) : node_owners[i];
           },
           part.X,
-          {&part.U});
+          part.body->is_rigid()
+            ? std::vector<structure::VectorType *>{&part.U, &part.pulled}
+            : std::vector<structure::VectorType *>{&part.U});
         part.body->initialize_vector(part.X_half);
         part.body->initialize_vector(part.F);
       }
@@ -447,8 +454,12 @@ namespace mitre::simulation
     std::vector<const structure::VectorType *> forces;
     for (Part &part : parts)
       {
-        part.body->compute_force_density(
-          middle ? part.X_half : part.X, part.U, t, part.F);
+        const bool rigid = part.body->is_rigid();
+        part.body->compute_force_density(middle ? (rigid ? part.pulled_half : part.X_half)
+                                                : part.force_positions(),
+                                         part.U,
+                                         t,
+                                         part.F);
         forces.push_back(&part.F);
       }
     fe_coupling->spread(forces, grid_force);
@@ -497,8 +508,15 @@ namespace mitre::simulation
           }
         for (Part &part : parts)
           {
-            part.X_half = part.X;
-            part.X_half.add(0.5 * dt, part.U);
+            structure::VectorType &half =
+              part.body->is_rigid() ? part.pulled_half : part.X_half;
+            half = part.force_positions();
+            half.add(0.5 * dt, part.U);
+            if (part.body->is_rigid())
+              {
+                part.X_half = part.X;
+                part.body->set_to_held_positions(current_time + 0.5 * dt, part.X_half);
+              }
           }
 
         // (2.16)-(2.18)
@@ -512,7 +530,11 @@ namespace mitre::simulation
         set_kernel_boundary_values(current_time + 0.5 * dt);
         fe_coupling->interpolate(middle_velocity, velocities);
         for (Part &part : parts)
-          part.X.add(dt, part.U);
+          {
+            part.force_positions().add(dt, part.U);
+            if (part.body->is_rigid())
+              part.body->set_to_held_positions(current_time + dt, part.X);
+          }
       }
     courant_number = fluid->operators().max_courant_number(fluid->velocity(), dt);
   }
@@ -608,7 +630,8 @@ namespace mitre::simulation
     if (!parts.empty())
       set_kernel_boundary_values(current_time);
     for (const Part &part : parts)
-      result.parts.push_back({part.body.get(), &part.X, &part.U});
+      result.parts.push_back(
+        {part.body.get(), &part.X, &part.U, &part.force_positions()});
     return result;
   }
 
@@ -646,8 +669,8 @@ namespace mitre::simulation
                                   fluid->operators().max_divergence(fluid->velocity()),
                                   wall_time};
     for (const Part &part : parts)
-      for (const double displacement :
-           part.body->compute_constraint_displacements(part.X, current_time))
+      for (const double displacement : part.body->compute_constraint_displacements(
+             part.force_positions(), current_time))
         values.push_back(displacement);
     measure_point_spacing(values);
     for (const double value : instruments.measure(observation()))

@@ -31,6 +31,14 @@ namespace mitre::structure
                       dealii::Patterns::Double(1e-15, 1e-2),
                       "Residual at which the solution with the consistent mass matrix "
                       "stops, relative to the right hand side.");
+    prm.declare_entry(
+      "Rigid",
+      "false",
+      dealii::Patterns::Bool(),
+      "The part is always where its constraints, which must hold all of its nodes, want "
+      "it to be. They pull by as much as the part would have moved with the fluid "
+      "(virtual boundary method, Goldstein, Handler and Sirovich 1993). It has no "
+      "materials.");
     FibreRule<dim>::declare_parameters(prm);
     std::string names, list;
     for (const StressQuantity<dim> &quantity : stress_quantities<dim>())
@@ -109,6 +117,7 @@ namespace mitre::structure
     mesh_file       = prm.get("Mesh file");
     consistent_mass = prm.get("Mass matrix") == "consistent";
     mass_tolerance  = prm.get_double("Mass solver tolerance");
+    rigid           = prm.get_bool("Rigid");
     fibre_rule.parse_parameters(prm, "Part " + part);
     element_fields = base::parse_names(prm.get("Element fields"));
 
@@ -164,7 +173,8 @@ namespace mitre::structure
     AssertThrow(mesh_.n_elements() > 0,
                 base::UserError("Part " + name() + ": the mesh " + mesh_.source +
                                 " has no elements."));
-    check_materials();
+    if (!parameters.rigid)
+      check_materials();
     try
       {
         check_orientation(mesh_);
@@ -205,6 +215,35 @@ namespace mitre::structure
                   base::UserError("Part " + name() + ", load " + l.name +
                                   ": no element or face of " + mesh_.source +
                                   " is in its region and has its ids."));
+    if (parameters.rigid)
+      check_rigid();
+  }
+
+
+  template <int dim>
+  void Body<dim>::check_rigid() const
+  {
+    const std::string prefix = "Part " + name() + ": \"Rigid\" is true, but ";
+    AssertThrow(parameters.materials.empty(),
+                base::UserError(prefix + "the part has the material '" +
+                                parameters.materials.front().name +
+                                "'; expected none, as it does not deform."));
+    AssertThrow(parameters.element_fields.empty(),
+                base::UserError(prefix + "\"Element fields\" has '" +
+                                parameters.element_fields.front() +
+                                "'; expected none, as the part has no stress."));
+
+    VectorType X;
+    initialize_vector(X);
+    X = std::numeric_limits<double>::quiet_NaN();
+    set_to_held_positions(0., X);
+    const std::vector<double> values = to_mesh_order(X);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      AssertThrow(std::isfinite(values[i]),
+                  base::UserError(prefix + "no constraint holds the node at " +
+                                  to_string(mesh_.nodes[i / dim]) + " in " +
+                                  mesh_.source + " in the direction " + "xyz"[i % dim] +
+                                  "; expected a tether on all nodes."));
   }
 
 
@@ -278,7 +317,7 @@ namespace mitre::structure
     mass_matrix_.reinit(mesh_, elements_, reference_element_);
 
     ranges.clear();
-    for (unsigned int i = 0; i < elements_.n_elements(); ++i)
+    for (unsigned int i = 0; i < elements_.n_elements() && !parameters.rigid; ++i)
       {
         const unsigned int id = mesh_.material_ids[elements_.element(i)];
         unsigned int material = 0;
@@ -360,6 +399,14 @@ namespace mitre::structure
     for (unsigned int i = 0; i < elements_.n_owned_nodes(); ++i)
       for (unsigned int c = 0; c < dim; ++c)
         X.local_element(i * dim + c) = mesh_.nodes[elements_.file_node(i)][c];
+  }
+
+
+  template <int dim>
+  void Body<dim>::set_to_held_positions(const double t, VectorType &X) const
+  {
+    for (const NamedConstraint<dim> &c : parameters.constraints)
+      c.constraint->set_targets(t, X);
   }
 
 

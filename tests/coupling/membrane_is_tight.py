@@ -105,8 +105,8 @@ subsection Structure
       set Material id = 1
       set Law         = neo-Hookean
       subsection neo-Hookean
-        set C1           = 1e6
-        set Bulk modulus = 1e7
+        set C1           = 3e6
+        set Bulk modulus = 3e7
       end
     end
     subsection Constraint edge

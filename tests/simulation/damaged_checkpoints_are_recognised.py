@@ -17,7 +17,7 @@ program, folder = sys.argv[1:3]
 shutil.rmtree(folder, ignore_errors=True)
 os.makedirs(folder)
 os.chdir(folder)
-case.write_mesh()
+case.write_meshes()
 failures = []
 
 
@@ -75,7 +75,7 @@ with open("block.msh", "a") as file:
     file.write("\n")
 text = case.run(program, "through", status=1, **short)
 check("changed mesh: error", "Mesh file: was" in text)
-case.write_mesh()
+case.write_meshes()
 case.run(program, "through", **dict(short, dt="0.008", end="0.16", fields="0.04", kept="2",
                                     statistics="1"))
 check("parameters that may change", len(case.checkpoints("through")) == 2

@@ -21,7 +21,7 @@ program, folder, chosen = os.path.abspath(sys.argv[1]), sys.argv[2], sys.argv[3:
 shutil.rmtree(folder, ignore_errors=True)
 os.makedirs(folder)
 os.chdir(folder)
-case.write_mesh()
+case.write_meshes()
 failures = []
 
 

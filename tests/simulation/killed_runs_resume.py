@@ -25,7 +25,7 @@ generator = random.Random(seed)
 shutil.rmtree(folder, ignore_errors=True)
 os.makedirs(folder)
 os.chdir(folder)
-case.write_mesh()
+case.write_meshes()
 
 parameters = dict(period="2", kept="2", end="0.24", dt="%g" % (4e-3 * 3 / n_kills), fields="0.04")
 begin = time.time()

@@ -1,6 +1,6 @@
 """A small run for the tests of checkpoints, and what they compare: a soft block of 8 x 8
 quadrilaterals in a channel, carried along by the flow, around which the grid is refined by two
-levels and follows it."""
+levels and follows it, and a rigid bar that swings across the channel."""
 
 import array
 import csv
@@ -61,7 +61,7 @@ subsection Boundary conditions
   end
 end
 subsection Structure
-  set Parts = block
+  set Parts = block, bar
   subsection Part block
     set Mesh file   = block.msh
     set Mass solver tolerance = %(mass_tolerance)s
@@ -79,9 +79,20 @@ subsection Structure
       set Stiffness = %(stiffness)s
     end
   end
+  subsection Part bar
+    set Mesh file   = bar.msh
+    set Rigid       = true
+    set Constraints = swing
+    subsection Constraint swing
+      set Type           = tether
+      set Stiffness      = 1000
+      set Damping        = 20
+      set Displacement y = 0.01 * sin(30 * t)
+    end
+  end
 end
 subsection Instruments
-  set Instruments = flow, energy, force
+  set Instruments = flow, energy, force, bar
   subsection Instrument flow
     set Type     = flow meter
     set Axis     = x
@@ -93,6 +104,11 @@ subsection Instruments
   subsection Instrument force
     set Type = part force
     set Part = block
+  end
+  subsection Instrument bar
+    set Type = part extent
+    set Part = bar
+    set Axis = y
   end
 end
 subsection Output
@@ -106,13 +122,14 @@ DEFAULTS = dict(resume="auto", end="0.24", dt="4e-3", courant="0", maximum="1", 
                 stiffness="1", fields="0.02", statistics="3")
 
 
-def write_mesh(n=8):
-    with open("block.msh", "w") as file:
+def write_mesh(name="block", x=0.4, y=0.35, width=0.2, height=0.2, n=8):
+    """A rectangle of n x n quadrilaterals."""
+    with open(name + ".msh", "w") as file:
         file.write("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n%d\n" % (n + 1) ** 2)
         for j in range(n + 1):
             for i in range(n + 1):
-                file.write("%d %g %g 0\n" % (j * (n + 1) + i + 1, 0.4 + 0.2 * i / n,
-                                             0.35 + 0.2 * j / n))
+                file.write("%d %g %g 0\n" % (j * (n + 1) + i + 1, x + width * i / n,
+                                             y + height * j / n))
         file.write("$EndNodes\n$Elements\n%d\n" % (n * n))
         for j in range(n):
             for i in range(n):
@@ -120,6 +137,11 @@ def write_mesh(n=8):
                 file.write("%d 3 2 1 1 %d %d %d %d\n"
                            % (j * n + i + 1, a, a + 1, a + n + 2, a + n + 1))
         file.write("$EndElements\n")
+
+
+def write_meshes():
+    write_mesh()
+    write_mesh("bar", 1.5, 0.1, 0.06, 0.06, 4)
 
 
 def write_parameters(folder, **changes):

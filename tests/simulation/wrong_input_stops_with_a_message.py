@@ -290,6 +290,17 @@ errors = [
                       ("      subsection neo-Hookean\n        set C1 = 10\n      end\n", "")]),
          ["Part cube: the law of the material 'rubber' needs",
           "an $ElementData section \"fibre\" is expected"]),
+        ("a rigid part with a material",
+         dict(change=[("set Materials ", "set Rigid = true\n    set Materials ")]),
+         ["Part cube: \"Rigid\" is true, but the part has the material 'rubber'"]),
+        ("a rigid part that is not held",
+         dict(change=[("set Materials   = rubber", "set Rigid = true"),
+                      ("    subsection Material rubber\n      set Material id = 1\n"
+                       "      set Law         = neo-Hookean\n      subsection neo-Hookean\n"
+                       "        set C1 = 10\n      end\n    end\n", ""),
+                      ("set Stiffness", "set Components = x, z\n      set Stiffness")]),
+         ["Part cube: \"Rigid\" is true, but no constraint holds the node at",
+          "in the direction y; expected a tether on all nodes"]),
         ("a constraint on no node",
          dict(change=[("set Stiffness", "set Region = x > 2\n      set Stiffness")]),
          ["Part cube, constraint hold: no node of", "is in its region"]),

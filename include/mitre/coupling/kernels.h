@@ -273,8 +273,8 @@ namespace mitre::coupling
   }
 
 
-  /// Spacings that a kernel reaches to each side of a point, and layers that a padded
-  /// Layers that a padded patch must have about it: 2, or 3 for kernels of more than four points.
+  /// Layers that a padded patch must have about it: 2, or 3 for kernels of more than four
+  /// points.
   unsigned int kernel_halo_width(const std::string &name);
 
 

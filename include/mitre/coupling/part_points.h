@@ -186,6 +186,9 @@ namespace mitre::coupling
     double margin           = 0;
     VectorType positions_at_lookup;
 
+    /// The owned positions of the last update() of a rigid body.
+    std::vector<double> positions_at_update;
+
     VectorType positions_;
     std::vector<unsigned int> patch_hints;
     std::vector<Run> unsorted_runs, runs_;

@@ -27,6 +27,9 @@ namespace mitre::instruments
     const structure::Body<dim> *body;
     const structure::VectorType *X;
     const structure::VectorType *U;
+
+    /// The positions at which forces act if these are not X, as in rigid bodies.
+    const structure::VectorType *pulled = nullptr;
   };
 
 

@@ -112,13 +112,28 @@ namespace mitre::simulation
       /// Positions at the beginning and in the middle of the step [cm], velocity [cm/s]
       /// and force density [dyn/cm^dim].
       structure::VectorType X, X_half, U, F;
+
+      /// Rigid parts: where the nodes would be at both times had they moved with the
+      /// fluid, at which positions the constraints pull. Otherwise empty.
+      structure::VectorType pulled, pulled_half;
+
+      /// The positions from which forces follow.
+      structure::VectorType &force_positions()
+      {
+        return body->is_rigid() ? pulled : X;
+      }
+
+      const structure::VectorType &force_positions() const
+      {
+        return body->is_rigid() ? pulled : X;
+      }
     };
 
     /// What a step changes: to go back to when it fails.
     struct StepState
     {
       typename fluid::NavierStokes<dim>::State fluid;
-      std::vector<structure::VectorType> X, U, elastic_force_density;
+      std::vector<structure::VectorType> X, U, pulled, elastic_force_density;
       double time_step             = 0.;
       double courant_number        = 0.;
       unsigned int last_iterations = 0;

@@ -51,7 +51,10 @@ namespace mitre::structure
     std::vector<Material<dim>> materials;
     std::vector<NamedConstraint<dim>> constraints;
     std::vector<NamedLoad<dim>> loads;
-    bool consistent_mass  = true;
+    bool consistent_mass = true;
+
+    /// Whether the part is where its constraints hold it, whatever pulls at it.
+    bool rigid            = false;
     double mass_tolerance = 1e-10;
 
     FibreRule<dim> fibre_rule;
@@ -87,8 +90,9 @@ namespace mitre::structure
     /**
      * The nodes are dealt out in equal parts until distribute() is called. Throws
      * base::UserError if a material id of the mesh has no material or two, a material
-     * has no elements, an element is inverted, a law lacks its fibres, a constraint or
-     * load has nothing to act on, or quadratic simplices shall have a lumped mass matrix.
+     * has no elements, an element is inverted, a law lacks its fibres, a rigid body has
+     * materials or nodes that nothing holds, a constraint or load has nothing to act on,
+     * or quadratic simplices shall have a lumped mass matrix.
      */
     Body(BodyParameters<dim> parameters, Mesh<dim> mesh, const MPI_Comm communicator);
 
@@ -141,6 +145,13 @@ namespace mitre::structure
       return parameters.element_fields;
     }
 
+    /// Whether the nodes are where set_to_held_positions() says. Such a body has no
+    /// materials and no elastic forces.
+    bool is_rigid() const
+    {
+      return parameters.rigid;
+    }
+
     const std::vector<NamedConstraint<dim>> &constraints() const
     {
       return parameters.constraints;
@@ -166,6 +177,9 @@ namespace mitre::structure
 
     /// The reference positions as a vector of this body.
     void set_to_reference_positions(VectorType &X) const;
+
+    /// Where the constraints of a rigid body hold its nodes at time @p t [s].
+    void set_to_held_positions(const double t, VectorType &X) const;
 
     /**
      * All entries of a vector of this body on every rank, by node of the mesh and
@@ -285,6 +299,8 @@ namespace mitre::structure
 
   private:
     void check_materials() const;
+
+    void check_rigid() const;
 
     void setup(const std::vector<unsigned int> &owners);
 

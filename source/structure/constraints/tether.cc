@@ -254,6 +254,19 @@ namespace mitre::structure
 
 
   template <int dim>
+  void Tether<dim>::set_targets(const double t, VectorType &X) const
+  {
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      {
+        const dealii::Point<dim> x = target(reference_positions[i], t);
+        for (unsigned int c = 0; c < dim; ++c)
+          if (held[c] != 0)
+            X.local_element(nodes[i] * dim + c) = x[c];
+      }
+  }
+
+
+  template <int dim>
   double Tether<dim>::largest_displacement(const VectorType &X, const double t) const
   {
     double largest_square = 0;

@@ -153,6 +153,12 @@ namespace
                  l2  = std::sqrt(Utilities::MPI::sum(error[1], MPI_COMM_WORLD)),
                  max = Utilities::MPI::max(error[2], MPI_COMM_WORLD);
 
+    // patches of each rank, and those of them that touch another level
+    std::array<unsigned int, 2> n_here = {{patch_grid.n_owned_patches(), 0}};
+    for (unsigned int p = 0; p < n_here[0]; ++p)
+      n_here[1] += patch_grid.touches_other_level(p) ? 1 : 0;
+    const auto n_by_rank = Utilities::MPI::gather(MPI_COMM_WORLD, n_here);
+
     // a change of the grid to finer patches in one more box, and back
     std::vector<double> regrids;
     if (name == "adaptive")
@@ -207,6 +213,10 @@ namespace
                     "other",
                     1e3 * rest / times.size(),
                     1e9 * rest / times.size() / cells);
+        for (const auto &n : n_by_rank)
+          std::printf("         %u patches on a rank, %u of them beside another level\n",
+                      n[0],
+                      n[1]);
         for (const double seconds : regrids)
           std::printf("         change of the grid %.3f s, %.1f steps\n",
                       seconds,

@@ -64,6 +64,12 @@ namespace mitre::structure
     {
     }
 
+    /**
+     * Put the components of owned nodes in @p X that the constraint holds where they
+     * shall be at time @p t [s].
+     */
+    virtual void set_targets(const double t, VectorType &X) const = 0;
+
     /// The largest distance of an owned node from where it shall be [cm].
     virtual double largest_displacement(const VectorType &X, const double t) const = 0;
   };

@@ -58,6 +58,8 @@ namespace mitre::structure
 
     void add_forces(const NodalState &state, double *forces) const override;
 
+    void set_targets(const double t, VectorType &X) const override;
+
     double largest_displacement(const VectorType &X, const double t) const override;
 
   private:
