@@ -264,8 +264,9 @@ errors = [
          dict(change=[("    set Mesh file   = cube.msh\n",
                        "    set Mesh file   = cube.msh\n    set Coupling    = nodal\n")],
               files={"cube.msh": mesh(quadratic_tetrahedron, [tuple(range(10))])}),
-         ["Part cube: \"Coupling\" is 'nodal', but the elements of cube.msh are quadratic",
-          "row sums of the mass matrix are negative", "expected 'elemental', or other elements"]),
+         ["Part cube: \"Mass matrix\" is 'lumped', as nodal coupling has it, but the elements of "
+          "cube.msh are quadratic", "the row sums are negative",
+          "expected 'consistent' and elemental coupling, or linear elements"]),
         ("two shapes of elements",
          dict(files={"cube.msh": mesh(elements=tetrahedra + [(0, 1, 3, 2, 4, 5, 7, 6)])}),
          ["cube.msh: element 7 is a hexahedron, element 1 a tetrahedron",
