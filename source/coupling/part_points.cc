@@ -17,44 +17,68 @@ namespace mitre::coupling
     constexpr unsigned int max_points_per_edge = 64;
 
 
-    /// Pairs of nodes that an edge joins.
-    template <int dim>
-    std::vector<std::pair<unsigned int, unsigned int>>
-    element_edges(const structure::ElementShape shape)
+    /**
+     * The edges of an element; of quadratic hypercubes all lines of three nodes, as those
+     * in the middle of faces and cells may be longer than edges.
+     */
+    template <int dim, typename Edge>
+    std::vector<Edge> element_edges(const structure::ElementShape shape,
+                                    const unsigned int degree,
+                                    const std::vector<dealii::Point<dim>> &nodes)
     {
-      std::vector<std::pair<unsigned int, unsigned int>> edges;
-      if (shape == structure::ElementShape::simplex)
-        {
-          for (unsigned int a = 0; a <= dim; ++a)
-            for (unsigned int b = 0; b < a; ++b)
-              edges.emplace_back(a, b);
-        }
-      else
-        for (unsigned int a = 0; a < (1u << dim); ++a)
-          for (unsigned int d = 0; d < dim; ++d)
-            if ((a & (1u << d)) == 0)
-              edges.emplace_back(a, a | (1u << d));
+      const auto find = [&](const dealii::Point<dim> &x) -> unsigned int {
+        for (unsigned int a = 0; a < nodes.size(); ++a)
+          if (nodes[a].distance(x) < 1e-10)
+            return a;
+        return invalid;
+      };
+      std::vector<Edge> edges;
+      for (unsigned int a = 0; a < nodes.size(); ++a)
+        for (unsigned int b = 0; b < nodes.size(); ++b)
+          {
+            bool is_edge = a < b && b <= dim;
+            if (shape == structure::ElementShape::hypercube)
+              {
+                const dealii::Tensor<1, dim> line = nodes[b] - nodes[a];
+                unsigned int n_directions         = 0;
+                for (unsigned int d = 0; d < dim; ++d)
+                  n_directions += std::abs(line[d]) > 1e-10;
+                is_edge =
+                  n_directions == 1 && std::abs(line.norm_square() - 1) < 1e-10 && a < b;
+              }
+            if (is_edge)
+              edges.push_back(
+                {a,
+                 b,
+                 degree == 1 ? invalid
+                             : find(dealii::Point<dim>(0.5 * (nodes[a] + nodes[b])))});
+          }
       return edges;
     }
 
 
-    /// Whether an element has the shape that a linear map gives to the reference element.
+    /// Whether an element is the image of the reference element by an affine map.
     template <int dim>
-    bool is_parallelepiped(const structure::Mesh<dim> &mesh, const unsigned int e)
+    bool is_affine(const structure::Mesh<dim> &mesh,
+                   const unsigned int e,
+                   const std::vector<dealii::Point<dim>> &reference_nodes)
     {
+      const bool simplex = mesh.shape == structure::ElementShape::simplex;
+      if (simplex && mesh.degree == 1)
+        return true;
       const auto node = [&](const unsigned int a) -> const dealii::Point<dim> & {
         return mesh.nodes[mesh.elements[e * mesh.nodes_per_element + a]];
       };
-      double difference = 0;
-      for (unsigned int a = 1; a < (1u << dim); ++a)
+      double difference = 0, size = 0;
+      for (unsigned int a = 1; a < mesh.nodes_per_element; ++a)
         {
           dealii::Tensor<1, dim> offset = node(a) - node(0);
+          size                          = std::max(size, offset.norm());
           for (unsigned int d = 0; d < dim; ++d)
-            if ((a & (1u << d)) != 0)
-              offset -= node(1u << d) - node(0);
+            offset -= reference_nodes[a][d] * (node(simplex ? d + 1 : 1u << d) - node(0));
           difference = std::max(difference, offset.norm());
         }
-      return difference < 1e-10 * (node((1u << dim) - 1) - node(0)).norm();
+      return difference < 1e-10 * size;
     }
   } // namespace
 
@@ -68,13 +92,20 @@ namespace mitre::coupling
     , body_(body)
     , density(density)
     , choice(choice)
-    , rules_(body.mesh().shape, body.reference_element())
+    , rules_(body.mesh().shape, body.mesh().degree, body.reference_element())
+    , edges(element_edges<dim, Edge>(body.mesh().shape,
+                                     body.mesh().degree,
+                                     body.reference_element().nodes()))
+    , overshoot_(overshoot(dim, body.mesh().shape, body.mesh().degree))
   {
-    AssertThrow(body.mesh().degree == 1,
-                base::UserError("Part " + body.name() + ": the elements of " +
-                                body.mesh().source +
-                                " are of second order, which cannot be coupled to the "
-                                "fluid yet; expected elements of first order."));
+    AssertThrow(
+      choice == PointChoice::quadrature || body.mesh().degree == 1 ||
+        body.mesh().shape == structure::ElementShape::hypercube,
+      base::UserError(
+        "Part " + body.name() + ": \"Coupling\" is 'nodal', but the elements of " +
+        body.mesh().source + " are quadratic " + (dim == 2 ? "triangles" : "tetrahedra") +
+        ", at whose corners the row sums of the mass matrix are " +
+        (dim == 2 ? "zero" : "negative") + "; expected 'elemental', or other elements."));
   }
 
 
@@ -143,9 +174,15 @@ namespace mitre::coupling
             for (unsigned int a = 0; a < n_nodes; ++a)
               {
                 const double value = x[mesh.elements[e * n_nodes + a] * dim + d];
-                lower[d]           = std::min(lower[d], value - margin);
-                upper[d]           = std::max(upper[d], value + margin);
+                lower[d]           = std::min(lower[d], value);
+                upper[d]           = std::max(upper[d], value);
               }
+            // Nodes that have moved by the margin in opposite directions make the box
+            // wider, too.
+            const double growth =
+              margin + overshoot_ * (upper[d] - lower[d] + 2 * margin);
+            lower[d] -= growth;
+            upper[d] += growth;
             if (!grid.periodic()[d])
               {
                 lower[d] = std::max(lower[d], grid.box().get_boundary_points().first[d]);
@@ -191,7 +228,10 @@ namespace mitre::coupling
     counted.clear();
     jacobians.clear();
     smallest_k.clear();
-    const structure::ShapeTable<dim> &table = rules_.get(2).table;
+    const std::vector<dealii::Point<dim>> &reference_nodes =
+      body_.reference_element().nodes();
+    const structure::ShapeTable<dim> &table =
+      rules_.get(PointRules<dim>::number(2, true)).table;
     for (const unsigned int e : relevant)
       {
         double h = std::numeric_limits<double>::max();
@@ -199,12 +239,12 @@ namespace mitre::coupling
           h = std::min(h, grid.cell_width(levels[e], d));
         spacings.push_back(h);
         counted.push_back(counting_rank[e] == rank);
-        if (mesh.shape == structure::ElementShape::simplex)
-          jacobians.push_back(determinant(table.jacobian(mesh, e, 0)));
-        smallest_k.push_back(mesh.shape == structure::ElementShape::simplex ||
-                                 is_parallelepiped(mesh, e)
-                               ? 2
-                               : dim);
+        const bool affine = is_affine(mesh, e, reference_nodes);
+        jacobians.push_back(affine ? determinant(table.jacobian(mesh, e, 0)) : 0.);
+        smallest_k.push_back(
+          mesh.shape == structure::ElementShape::simplex
+            ? 2
+            : needed_exactness(dim, mesh.shape, mesh.degree, affine).points_per_edge);
       }
 
     positions_.reinit(elements_.partitioner());
@@ -304,7 +344,6 @@ namespace mitre::coupling
     run_starts_[0] = 0;
 
     // Step 5: their weights.
-    const bool simplices = body_.mesh().shape == structure::ElementShape::simplex;
     weights_.resize(n_points_);
     std::size_t next = 0;
     for (Run &run : runs_)
@@ -315,15 +354,16 @@ namespace mitre::coupling
             weights_[next++] = node_weights.local_element(run.element * dim);
             continue;
           }
-        const PointRule<dim> &rule = rules_.get(run.k);
+        const PointRule<dim> &rule = rules_.get(run.rule);
+        const double jacobian      = jacobians[run.element];
         for (unsigned int i = 0; i < run.n_points; ++i, ++next)
           {
             const unsigned int q = run.list ? selected_[run.first + i] : run.first + i;
             weights_[next] =
               rule.table.weights[q] *
-              (simplices ? jacobians[run.element]
-                         : determinant(rule.table.jacobian(
-                             body_.mesh(), elements_.element(run.element), q)));
+              (jacobian != 0 ? jacobian
+                             : determinant(rule.table.jacobian(
+                                 body_.mesh(), elements_.element(run.element), q)));
           }
       }
   }
@@ -335,7 +375,7 @@ namespace mitre::coupling
   void PartPoints<dim>::find_runs()
   {
     const unsigned int n_nodes = body_.mesh().nodes_per_element;
-    const auto edges           = element_edges<dim>(body_.mesh().shape);
+    const bool simplices       = body_.mesh().shape == structure::ElementShape::simplex;
     const double *x            = positions_.begin();
 
     unsorted_runs.clear();
@@ -350,21 +390,10 @@ namespace mitre::coupling
         const unsigned int *nodes = elements_.nodes(i);
 
         // Step 1: how many points.
-        double longest_square = 0;
-        for (const auto &[a, b] : edges)
-          {
-            double square = 0;
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                const double difference = x[nodes[a] * dim + d] - x[nodes[b] * dim + d];
-                square += difference * difference;
-              }
-            longest_square = std::max(longest_square, square);
-          }
-        const double length = std::sqrt(longest_square) / spacings[i];
+        const double length = std::sqrt(longest_edge_squared(nodes)) / spacings[i];
         if (choice == PointChoice::nodes)
           {
-            largest_spacing_ = std::max(largest_spacing_, length);
+            largest_spacing_ = std::max(largest_spacing_, length / body_.mesh().degree);
             continue;
           }
         const double wanted = std::ceil(density * length);
@@ -379,8 +408,10 @@ namespace mitre::coupling
           }
         const unsigned int k =
           std::max<unsigned int>(static_cast<unsigned int>(wanted), smallest_k[i]);
-        largest_spacing_           = std::max(largest_spacing_, length / k);
-        const PointRule<dim> &rule = rules_.get(k);
+        largest_spacing_ = std::max(largest_spacing_, length / k);
+        const unsigned int number =
+          PointRules<dim>::number(k, !simplices || jacobians[i] != 0);
+        const PointRule<dim> &rule = rules_.get(number);
         if (counted[i])
           n_expected_points += rule.n_points;
 
@@ -394,7 +425,10 @@ namespace mitre::coupling
                 lower[d] = std::min(lower[d], x[nodes[a] * dim + d]);
                 upper[d] = std::max(upper[d], x[nodes[a] * dim + d]);
               }
-            centroid[d] = 0.5 * (lower[d] + upper[d]);
+            centroid[d]         = 0.5 * (lower[d] + upper[d]);
+            const double growth = overshoot_ * (upper[d] - lower[d]);
+            lower[d] -= growth;
+            upper[d] += growth;
           }
         bool whole = lies_in_patch(lower, upper, patch_hints[i]);
         if (!whole)
@@ -404,16 +438,48 @@ namespace mitre::coupling
           }
         if (whole)
           {
-            unsorted_runs.push_back({patch_hints[i], i, k, rule.n_points, 0, 0u, false});
+            unsorted_runs.push_back(
+              {patch_hints[i], i, number, rule.n_points, 0, 0u, false});
             n_points_ += rule.n_points;
           }
         else
-          find_points_one_by_one(i, k, rule);
+          find_points_one_by_one(i, number, rule);
         if (!error.empty())
           return;
       }
     if (choice == PointChoice::nodes)
       find_nodes();
+  }
+
+
+  template <int dim>
+  double PartPoints<dim>::longest_edge_squared(const unsigned int *nodes) const
+  {
+    const double *x       = positions_.begin();
+    const bool quadratic  = body_.mesh().degree == 2;
+    double longest_square = 0;
+    for (const Edge &edge : edges)
+      {
+        const double *a = x + nodes[edge.begin] * dim, *b = x + nodes[edge.end] * dim;
+        double square = 0;
+        for (unsigned int d = 0; d < dim; ++d)
+          square += (b[d] - a[d]) * (b[d] - a[d]);
+        longest_square = std::max(longest_square, square);
+        if (quadratic)
+          {
+            // The derivative is linear in the parameter, so largest at an end.
+            const double *m = x + nodes[edge.middle] * dim;
+            double at_begin = 0, at_end = 0;
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                const double bend = 4 * (m[d] - 0.5 * (a[d] + b[d])), chord = b[d] - a[d];
+                at_begin += (chord + bend) * (chord + bend);
+                at_end += (chord - bend) * (chord - bend);
+              }
+            longest_square = std::max({longest_square, at_begin, at_end});
+          }
+      }
+    return longest_square;
   }
 
 
@@ -430,7 +496,7 @@ namespace mitre::coupling
           patch_hints[i] = grid.locate(x);
         if (patch_hints[i] != invalid)
           {
-            unsorted_runs.push_back({patch_hints[i], i, 1, 1, 0, 0u, false});
+            unsorted_runs.push_back({patch_hints[i], i, 0, 1, 0, 0u, false});
             ++n_points_;
           }
         else if (!is_in_box(x))
@@ -472,7 +538,7 @@ namespace mitre::coupling
 
   template <int dim>
   void PartPoints<dim>::find_points_one_by_one(const unsigned int i,
-                                               const unsigned int k,
+                                               const unsigned int number,
                                                const PointRule<dim> &rule)
   {
     const unsigned int n_nodes = body_.mesh().nodes_per_element;
@@ -516,7 +582,7 @@ namespace mitre::coupling
         const unsigned int p = point_patches[q];
         if (p == invalid)
           continue;
-        Run run{p, i, k, 0, 0, static_cast<unsigned int>(selected_.size()), true};
+        Run run{p, i, number, 0, 0, static_cast<unsigned int>(selected_.size()), true};
         for (unsigned int r = q; r < rule.n_points; ++r)
           if (point_patches[r] == p)
             {

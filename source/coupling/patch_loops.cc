@@ -462,9 +462,14 @@ namespace mitre::coupling
     }
 
 
-    /// A value for each node of an element. Triangles have room for a fourth.
+    /// Vectors with a value for each node of an element, and room for some more.
     template <int n_nodes>
-    using NodeValues = std::conditional_t<n_nodes == 8, EightDoubles, FourDoubles>;
+    struct NodeValues
+    {
+      using Vector = std::conditional_t<n_nodes <= 4, FourDoubles, EightDoubles>;
+      static constexpr int width     = sizeof(Vector) / sizeof(double);
+      static constexpr int n_vectors = (n_nodes + width - 1) / width;
+    };
 
 
     template <int dim, int n_nodes, int n_reach>
@@ -489,20 +494,28 @@ namespace mitre::coupling
               const double *weights =
                 points.weights().data() + run.first_point + parts[part].first_in_run;
 
-              NodeValues<n_nodes> sums[dim] = {};
+              using Values                                         = NodeValues<n_nodes>;
+              typename Values::Vector sums[Values::n_vectors][dim] = {};
               for (unsigned int i = 0; i < parts[part].n_points; ++i)
                 {
-                  const auto phi = load<NodeValues<n_nodes>>(
+                  const double *const phi =
                     parts[part].rule->by_point.data() +
-                    rule_point<dim>(points, run, parts[part].first_in_run + i) * n_nodes);
-                  for (int c = 0; c < dim; ++c)
-                    sums[c] += phi * (weights[i] *
-                                      chunk.values[c][parts[part].first_in_chunk + i]);
+                    rule_point<dim>(points, run, parts[part].first_in_run + i) * n_nodes;
+                  for (int v = 0; v < Values::n_vectors; ++v)
+                    {
+                      const auto some =
+                        load<typename Values::Vector>(phi + v * Values::width);
+                      for (int c = 0; c < dim; ++c)
+                        sums[v][c] +=
+                          some *
+                          (weights[i] * chunk.values[c][parts[part].first_in_chunk + i]);
+                    }
                 }
               const unsigned int *nodes = points.nodes(run);
               for (int a = 0; a < n_nodes; ++a)
                 for (int c = 0; c < dim; ++c)
-                  moments[nodes[a] * dim + c] += sums[c][a];
+                  moments[nodes[a] * dim + c] +=
+                    sums[a / Values::width][c][a % Values::width];
             }
         });
     }
@@ -547,24 +560,14 @@ namespace mitre::coupling
     }
 
 
-    /// Call @p function with the number of nodes of an element as a constant.
+    /// Call @p function with the number of nodes on which a point depends as a constant.
     template <int dim, typename Function>
     void with_n_nodes(const unsigned int n_nodes, const Function &function)
     {
-      switch (n_nodes)
-        {
-          case 1:
-            function(std::integral_constant<int, 1>());
-            break;
-          case dim + 1:
-            function(std::integral_constant<int, dim + 1>());
-            break;
-          case (1 << dim):
-            function(std::integral_constant<int, (1 << dim)>());
-            break;
-          default:
-            AssertThrow(false, dealii::ExcNotImplemented());
-        }
+      if (n_nodes == 1)
+        function(std::integral_constant<int, 1>());
+      else
+        structure::with_n_nodes<dim>(n_nodes, function);
     }
 
 

@@ -121,7 +121,8 @@ namespace mitre::coupling
 
   template <int dim>
   Quadrature<dim> make_point_rule(const structure::ElementShape shape,
-                                  const unsigned int k)
+                                  const unsigned int k,
+                                  const unsigned int degree)
   {
     if (shape == structure::ElementShape::hypercube)
       return dealii::QGauss<dim>(k);
@@ -132,6 +133,8 @@ namespace mitre::coupling
     std::size_t fewest      = std::numeric_limits<std::size_t>::max();
     for (const SimplexRule &rule : simplex_rules<dim>())
       {
+        if (2 * rule.n_points_1d - rule.odd_degree < degree)
+          continue;
         const unsigned int m = std::ceil(rule.hole / hole);
         const std::size_t n  = rule.n_points * dealii::Utilities::pow(m, dim);
         if (n < fewest)
@@ -143,6 +146,32 @@ namespace mitre::coupling
       }
     const dealii::QWitherdenVincentSimplex<dim> rule(best.n_points_1d, best.odd_degree);
     return best_parts == 1 ? Quadrature<dim>(rule) : subdivide<dim>(rule, best_parts);
+  }
+
+
+  Exactness needed_exactness(const int dim,
+                             const structure::ElementShape shape,
+                             const unsigned int degree,
+                             const bool is_affine)
+  {
+    // The determinant of the map's gradient: of each coordinate to the power dim degree -
+    // 1 on hypercubes, of total degree dim (degree - 1) on simplices.
+    const unsigned int jacobian =
+      is_affine ? 0
+                : (shape == structure::ElementShape::simplex ? dim * (degree - 1)
+                                                             : dim * degree - 1);
+    return {degree + 1 + jacobian / 2, 2 * degree + jacobian};
+  }
+
+
+  double
+  overshoot(const int dim, const structure::ElementShape shape, const unsigned int degree)
+  {
+    if (degree == 1)
+      return 0;
+    if (shape == structure::ElementShape::simplex)
+      return dim == 2 ? 1. / 3 : 0.5;
+    return 0.5 * (std::pow(1.25, dim) - 1);
   }
 
 
@@ -158,7 +187,7 @@ namespace mitre::coupling
       for (unsigned int q = 0; q < n_padded; ++q)
         by_node.push_back(table.values[(q < n_points ? q : 0) * table.n_nodes + a]);
     by_point = table.values;
-    by_point.resize(by_point.size() + 3);
+    by_point.resize(by_point.size() + 7);
   }
 
 
@@ -167,34 +196,40 @@ namespace mitre::coupling
     : n_points(1)
     , n_padded(8)
     , by_node(8, 1.)
-    , by_point{1., 0., 0., 0.}
+    , by_point{1., 0., 0., 0., 0., 0., 0., 0.}
   {
   }
 
 
   template <int dim>
   PointRules<dim>::PointRules(const structure::ElementShape shape,
+                              const unsigned int degree,
                               const structure::ReferenceElement<dim> &element)
     : shape(shape)
+    , degree(degree)
     , element(element)
   {
   }
 
 
   template <int dim>
-  const PointRule<dim> &PointRules<dim>::make(const unsigned int k)
+  const PointRule<dim> &PointRules<dim>::make(const unsigned int number)
   {
-    if (k >= rules.size())
-      rules.resize(k + 1);
-    rules[k] = std::make_unique<PointRule<dim>>(element, make_point_rule<dim>(shape, k));
-    return *rules[k];
+    if (number >= rules.size())
+      rules.resize(number + 1);
+    const bool is_affine = number % 2 == 0;
+    rules[number]        = std::make_unique<PointRule<dim>>(
+      element,
+      make_point_rule<dim>(
+        shape, number / 2, needed_exactness(dim, shape, degree, is_affine).degree));
+    return *rules[number];
   }
 
 
-  template Quadrature<2> make_point_rule(const structure::ElementShape,
-                                         const unsigned int);
-  template Quadrature<3> make_point_rule(const structure::ElementShape,
-                                         const unsigned int);
+  template Quadrature<2>
+  make_point_rule(const structure::ElementShape, const unsigned int, const unsigned int);
+  template Quadrature<3>
+  make_point_rule(const structure::ElementShape, const unsigned int, const unsigned int);
   template struct PointRule<2>;
   template struct PointRule<3>;
   template class PointRules<2>;

@@ -97,6 +97,8 @@ namespace mitre::coupling
     for (unsigned int d = 0; d < dim; ++d)
       smallest_h = std::min(smallest_h, grid.cell_width(level, d));
     const double kernel_reach = kernel_halo_width(parameters.kernel);
+    const double beyond_nodes = overshoot(dim, mesh.shape, mesh.degree);
+    const Exactness exactness = needed_exactness(dim, mesh.shape, mesh.degree, true);
     std::vector<double> rule_sizes;
 
     for (unsigned int e = 0; e < mesh.n_elements(); ++e)
@@ -114,7 +116,10 @@ namespace mitre::coupling
                 lower[d]           = std::min(lower[d], value);
                 upper[d]           = std::max(upper[d], value);
               }
-            longest = std::max(longest, upper[d] - lower[d]);
+            longest             = std::max(longest, upper[d] - lower[d]);
+            const double growth = beyond_nodes * (upper[d] - lower[d]);
+            lower[d] -= growth;
+            upper[d] += growth;
           }
         const dealii::Point<dim> centroid(0.5 * (lower + upper));
         for (unsigned int d = 0; d < dim; ++d)
@@ -133,13 +138,13 @@ namespace mitre::coupling
         // Step 3: its points, at about the density that PartPoints will choose.
         const unsigned int k =
           std::min(64u,
-                   std::max(2u,
+                   std::max(exactness.points_per_edge,
                             static_cast<unsigned int>(std::ceil(parameters.point_density *
                                                                 longest / smallest_h))));
         if (k >= rule_sizes.size())
           rule_sizes.resize(k + 1, 0.);
         if (rule_sizes[k] == 0)
-          rule_sizes[k] = make_point_rule<dim>(mesh.shape, k).size();
+          rule_sizes[k] = make_point_rule<dim>(mesh.shape, k, exactness.degree).size();
         for_each_bin(bins_of(centroid, centroid), [&](const std::uint64_t key) {
           bins[key].n_points += rule_sizes[k];
         });

@@ -60,11 +60,20 @@ namespace mitre::simulation
     }
 
 
+    /// The corners are the first of an element's nodes.
+    template <int dim>
+    unsigned int n_corners(const structure::Mesh<dim> &mesh)
+    {
+      return mesh.shape == structure::ElementShape::simplex ? dim + 1 : 1u << dim;
+    }
+
+
+    /// Quadratic elements are taken as if they were straight, here and below.
     template <int dim>
     double longest_edge(const structure::Mesh<dim> &mesh, const unsigned int e)
     {
-      const unsigned int n        = mesh.nodes_per_element;
-      const unsigned int *const v = mesh.elements.data() + e * n;
+      const unsigned int n        = n_corners(mesh);
+      const unsigned int *const v = mesh.elements.data() + e * mesh.nodes_per_element;
       double longest              = 0.;
       for (unsigned int a = 0; a < n; ++a)
         for (unsigned int b = 0; b < a; ++b)
@@ -83,8 +92,8 @@ namespace mitre::simulation
   template <int dim>
   double element_quality(const structure::Mesh<dim> &mesh, const unsigned int e)
   {
-    const unsigned int n        = mesh.nodes_per_element;
-    const unsigned int *const v = mesh.elements.data() + e * n;
+    const unsigned int n        = n_corners(mesh);
+    const unsigned int *const v = mesh.elements.data() + e * mesh.nodes_per_element;
     if (mesh.shape == structure::ElementShape::simplex)
       {
         Tensor<2, dim> edges;

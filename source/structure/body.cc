@@ -188,10 +188,12 @@ namespace mitre::structure
       parameters.consistent_mass || mesh_.shape == ElementShape::hypercube ||
         mesh_.degree == 1,
       base::UserError(
-        "Part " + name() + ": \"Mass matrix\" is 'lumped', but the elements of " +
+        "Part " + name() +
+        ": \"Mass matrix\" is 'lumped', as nodal coupling "
+        "has it, but the elements of " +
         mesh_.source + " are quadratic " + (dim == 2 ? "triangles" : "tetrahedra") +
         ", at whose corners the row sums are " + (dim == 2 ? "zero" : "negative") +
-        "; expected 'consistent', or linear elements."));
+        "; expected 'consistent' and elemental coupling, or linear elements."));
     for (const NamedConstraint<dim> &c : parameters.constraints)
       c.constraint->initialize(mesh_);
     for (const NamedLoad<dim> &l : parameters.loads)

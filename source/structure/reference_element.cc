@@ -15,14 +15,17 @@ namespace mitre::structure
         fe = std::make_unique<dealii::FE_SimplexP<dim>>(degree);
         // Gradients are of degree - 1; products of shape functions of 2 degree.
         force_rule = dealii::QWitherdenVincentSimplex<dim>(degree);
-        mass_rule  = dealii::QWitherdenVincentSimplex<dim>(degree, false);
+        // The Jacobian of bent elements adds dim (degree - 1).
+        mass_rule = degree == 1 ? dealii::QWitherdenVincentSimplex<dim>(1, false)
+                    : dim == 2  ? dealii::QWitherdenVincentSimplex<dim>(3, false)
+                                : dealii::QWitherdenVincentSimplex<dim>(4, true);
       }
     else
       {
         fe         = std::make_unique<dealii::FE_Q<dim>>(degree);
         force_rule = dealii::QGauss<dim>(degree + 1);
-        // The determinant of a multilinear map adds up to dim - 1 degrees.
-        mass_rule = dealii::QGauss<dim>(degree + 1 + (dim == 3));
+        // The determinant of the map's gradient adds dim degree - 1 in each coordinate.
+        mass_rule = dealii::QGauss<dim>(degree + 1 + (dim * degree - 1) / 2);
       }
   }
 

@@ -23,7 +23,7 @@ namespace coupling_tests
 
 
   /// A body in the unit box: unit box of the structure tests, deformed, scaled by @p size
-  /// and moved to @p lower.
+  /// and moved to @p lower. "bent": its undeformed elements are bent, too.
   template <int dim>
   struct BodyInBox
   {
@@ -34,12 +34,18 @@ namespace coupling_tests
               const unsigned int n,
               const Point<dim> &lower,
               const double size,
-              const double mass_tolerance = 1e-14)
+              const double mass_tolerance = 1e-14,
+              const unsigned int degree   = 1,
+              const bool bent             = false)
     {
       auto parameters           = structure_tests::make_parameters<dim>();
       parameters.mass_tolerance = mass_tolerance;
-      body                      = std::make_unique<structure::Body<dim>>(
-        parameters, structure_tests::make_box<dim>(shape, n), MPI_COMM_WORLD);
+      structure::Mesh<dim> mesh =
+        structure_tests::make_box_of_degree<dim>(shape, degree, n);
+      if (bent)
+        for (Point<dim> &s : mesh.nodes)
+          s = structure_tests::deform(s);
+      body = std::make_unique<structure::Body<dim>>(parameters, mesh, MPI_COMM_WORLD);
       body->initialize_vector(X);
       std::vector<double> positions;
       for (const Point<dim> &s : body->mesh().nodes)

@@ -1,9 +1,10 @@
 // A linear velocity is interpolated to the quadrature points exactly (the kernels'
 // weights sum to 1 with vanishing first moment, ghost values are exact for linear fields
-// away from the boundary), and as node positions are linear in each element, the
+// away from the boundary), and as the fields of an element contain its positions, the
 // projection is exact for the velocity u = a + A x at the nodes: an error of round-off,
 // 1e-12. The body straddles patches, ranks and levels. The number of points is that of
-// the rules, k = ceil(2 h_max/h) points an edge.
+// the rules, k = ceil(2 h_max/h) points an edge. Elements of first and second order,
+// these also with a bent reference configuration.
 //
 // The same next to a wall that moves with the velocity u, in the last direction: ghost
 // values beyond it are linear extrapolations through the wall's velocity. (Those beyond
@@ -18,12 +19,14 @@ void
 check(const Grid<dim> &grid,
       const ElementShape shape,
       const std::string &kernel,
-      const bool at_walls)
+      const bool at_walls,
+      const unsigned int degree = 1,
+      const bool bent           = false)
 {
   Point<dim> lower = grid_tests::diagonal_point<dim>(0.33);
   if (at_walls)
-    lower[dim - 1] = 0.02;
-  BodyInBox<dim> a(shape, 3, lower, 0.3);
+    lower[dim - 1] = bent ? 0.06 : 0.02;
+  BodyInBox<dim> a(shape, degree == 1 ? 3 : 2, lower, 0.3, 1e-14, degree, bent);
 
   coupling::FECoupling<dim> coupling(grid.patches);
   coupling::CouplingParameters parameters;
@@ -55,8 +58,8 @@ check(const Grid<dim> &grid,
         error = std::max(error, std::abs(U.local_element(i + c) - velocity(x, c)));
     }
   error = dealii::Utilities::MPI::max(error, MPI_COMM_WORLD);
-  out() << structure_tests::shape_name(dim, shape) << ", " << kernel
-        << (at_walls ? ", at a moving wall: " : ": ") << below(error, 1e-12)
+  out() << structure_tests::element_name(dim, shape, degree) << (bent ? ", bent, " : ", ")
+        << kernel << (at_walls ? ", at a moving wall: " : ": ") << below(error, 1e-12)
         << ", points " << dealii::Utilities::MPI::sum(coupling.n_points(), MPI_COMM_WORLD)
         << std::endl;
 }
@@ -73,6 +76,9 @@ check_all()
         for (const std::string &kernel : coupling::kernel_names())
           if (shape == ElementShape::hypercube || kernel == "IB_4")
             check<dim>(grid, shape, kernel, at_walls);
+      for (const ElementShape shape : {ElementShape::simplex, ElementShape::hypercube})
+        for (const bool bent : {false, true})
+          check<dim>(grid, shape, "IB_4", at_walls, 2, bent);
     }
 }
 

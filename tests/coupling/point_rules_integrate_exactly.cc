@@ -5,7 +5,11 @@
 // no place is farther from the nearest point than the largest hole between the k^dim
 // Gauss points of the unit cube, but by 15 % (the parts of a divided tetrahedron are not
 // all regular); with fewer points than these have. For the number of points of tetrahedra
-// see point_rules.h.
+// see point_rules.h. With a degree given, rules on simplices integrate the product of
+// powers of the coordinates exactly: n! m! .. / (n + m + .. + dim)!. No point of
+// quadratic elements is farther beyond the box of the nodes than overshoot() says: the
+// sum of the shape functions' absolute values, on a lattice that has its maximum, is 1 +
+// 2 overshoot.
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/utilities.h>
@@ -100,6 +104,62 @@ check(const structure::ElementShape shape)
   std::cout << std::endl;
 }
 
+template <int dim>
+void
+check_degrees()
+{
+  const auto factorial = [](const unsigned int n) { return std::tgamma(n + 1.); };
+  double error         = 0;
+  for (const unsigned int degree : {2, 4, 6, 7})
+    for (unsigned int k = 2; k <= 17; ++k)
+      {
+        const dealii::Quadrature<dim> rule =
+          coupling::make_point_rule<dim>(structure::ElementShape::simplex, k, degree);
+        for (unsigned int n = 0; n <= degree; ++n)
+          for (unsigned int m = 0; m <= degree - n; ++m)
+            {
+              const unsigned int l = dim == 3 ? degree - n - m : 0;
+              double sum           = 0;
+              for (unsigned int q = 0; q < rule.size(); ++q)
+                sum += rule.weight(q) * std::pow(rule.point(q)[0], n) *
+                       std::pow(rule.point(q)[1], m) *
+                       std::pow(rule.point(q)[dim - 1], l);
+              error = std::max(error,
+                               std::abs(sum * factorial(n + m + l + dim) /
+                                          (factorial(n) * factorial(m) * factorial(l)) -
+                                        1));
+            }
+      }
+
+  double difference = 0;
+  for (const structure::ElementShape shape :
+       {structure::ElementShape::simplex, structure::ElementShape::hypercube})
+    for (const unsigned int degree : {1, 2})
+      {
+        const structure::ReferenceElement<dim> element(shape, degree);
+        double largest = 0;
+        const int n    = 12;
+        for (int i = 0; i < dealii::Utilities::pow(n + 1, dim); ++i)
+          {
+            dealii::Point<dim> x;
+            double total = 0;
+            for (int d = 0, rest = i; d < dim; ++d, rest /= n + 1)
+              total += x[d] = (rest % (n + 1)) / static_cast<double>(n);
+            if (shape == structure::ElementShape::simplex && total > 1 + 1e-10)
+              continue;
+            double sum = 0;
+            for (unsigned int a = 0; a < element.n_nodes(); ++a)
+              sum += std::abs(element.value(a, x));
+            largest = std::max(largest, sum);
+          }
+        difference =
+          std::max(difference,
+                   std::abs(largest - 1 - 2 * coupling::overshoot(dim, shape, degree)));
+      }
+  std::cout << (error < 1e-12 ? "ok " : "FAILED ")
+            << (difference < 1e-12 ? "ok" : "FAILED") << std::endl;
+}
+
 int
 main()
 {
@@ -107,6 +167,9 @@ main()
   check<2>(structure::ElementShape::hypercube);
   check<3>(structure::ElementShape::simplex);
   check<3>(structure::ElementShape::hypercube);
+
+  check_degrees<2>();
+  check_degrees<3>();
 
   for (const unsigned int k : {2, 4, 5, 6, 7, 8, 10})
     std::cout << coupling::make_point_rule<3>(structure::ElementShape::simplex, k).size()

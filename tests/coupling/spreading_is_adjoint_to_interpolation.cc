@@ -7,9 +7,11 @@
 //
 // The total force on the grid is the integral of F, and, away from boundaries, the total
 // torque that of X x F (X and F are linear in simplices, multilinear in hypercubes):
-// 1e-11 of the sum over all nodes. Also after the bodies have moved by half a patch,
-// with the ranks that have the points, but not the nodes, of before. Where nodes are the
-// points, the force is the sum of F times the row sums of the mass matrix.
+// 1e-11 of the sum over all nodes. Quadratic elements, which are bent in the box, keep
+// both as well, whether they are bent undeformed or not. Also after the bodies have moved
+// by half a patch, with the ranks that have the points, but not the nodes, of before.
+// Where nodes are the points, the force is the sum of F times the row sums of the mass
+// matrix.
 
 #include "coupling_tests.h"
 
@@ -58,10 +60,13 @@ check(const Grid<dim> &grid,
       const ElementShape shape,
       const Point<dim> &lower,
       const std::string &kernel,
-      const coupling::PointChoice points = coupling::PointChoice::quadrature)
+      const coupling::PointChoice points = coupling::PointChoice::quadrature,
+      const unsigned int degree          = 1,
+      const bool bent                    = false)
 {
   const Point<dim> other = grid_tests::diagonal_point<dim>(0.3);
-  BodyInBox<dim> a(shape, 3, lower, 0.3), b(ElementShape::simplex, 2, other, 0.3);
+  BodyInBox<dim> a(shape, degree == 1 ? 3 : 2, lower, 0.3, 1e-14, degree, bent),
+    b(ElementShape::simplex, 2, other, 0.3);
 
   coupling::FECoupling<dim> coupling(grid.patches);
   coupling::CouplingParameters parameters;
@@ -157,9 +162,9 @@ check(const Grid<dim> &grid,
         std::max(torques, std::abs(spread.torque - expected.torque) / expected.magnitude);
     }
 
-  out() << structure_tests::shape_name(dim, shape) << ", " << kernel
-        << (points == coupling::PointChoice::nodes ? ", nodes" : "") << ", " << test.name
-        << ": moments " << below(adjoint, 1e-13) << ", densities "
+  out() << structure_tests::element_name(dim, shape, degree) << (bent ? ", bent, " : ", ")
+        << kernel << (points == coupling::PointChoice::nodes ? ", nodes" : "") << ", "
+        << test.name << ": moments " << below(adjoint, 1e-13) << ", densities "
         << below(densities, 1e-13) << ", velocities " << below(projections, 1e-12);
   if (!test.at_boundary)
     {
@@ -193,13 +198,38 @@ check_all()
       }
     for (const std::string &kernel : coupling::kernel_names())
       check<dim>(grid, test, ElementShape::hypercube, at(0.35, 0.4), kernel);
+    for (const ElementShape shape : {ElementShape::simplex, ElementShape::hypercube})
+      for (const bool bent : {false, true})
+        check<dim>(grid,
+                   test,
+                   shape,
+                   at(0.35, 0.4),
+                   "IB_4",
+                   coupling::PointChoice::quadrature,
+                   2,
+                   bent);
+    check<dim>(grid,
+               test,
+               ElementShape::hypercube,
+               at(0.35, 0.4),
+               "IB_4",
+               coupling::PointChoice::nodes,
+               2);
   }
   {
     const Case test{"periodic", dim == 2 ? "xy" : "xyz"};
     const Grid<dim> grid(16, 2, test.periodic, half_refined<dim>);
     for (const std::string kernel : {"IB_4", "IB_6", "CBS43"})
       for (const ElementShape shape : {ElementShape::simplex, ElementShape::hypercube})
-        check<dim>(grid, test, shape, at(0.85, -0.1), kernel);
+        for (const unsigned int degree : {1, 2})
+          if (degree == 1 || kernel == "IB_6")
+            check<dim>(grid,
+                       test,
+                       shape,
+                       at(0.85, -0.1),
+                       kernel,
+                       coupling::PointChoice::quadrature,
+                       degree);
   }
   for (const auto &[name, kind] : {std::make_pair("walls", grid::BoundaryKind::velocity),
                                    std::make_pair("open", grid::BoundaryKind::traction),

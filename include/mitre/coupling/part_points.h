@@ -42,8 +42,8 @@ namespace mitre::coupling
       /// Local number of the element, or of the node.
       unsigned int element;
 
-      /// Number of points along an edge, which stands for the rule.
-      unsigned int k;
+      /// Number of the rule, see PointRules.
+      unsigned int rule;
 
       unsigned int n_points;
 
@@ -56,7 +56,11 @@ namespace mitre::coupling
       unsigned int list : 1;
     };
 
-    /// @param density points for each grid spacing along the longest edge of an element
+    /**
+     * Throws base::UserError if the nodes of quadratic simplices shall be the points.
+     *
+     * @param density points for each grid spacing along the longest edge of an element
+     */
     PartPoints(const grid::PatchGrid<dim> &grid,
                const structure::Body<dim> &body,
                const double density,
@@ -129,13 +133,14 @@ namespace mitre::coupling
 
     const PointRule<dim> &rule(const Run &run)
     {
-      return choice == PointChoice::nodes ? node_rule : rules_.get(run.k);
+      return choice == PointChoice::nodes ? node_rule : rules_.get(run.rule);
     }
 
     /**
      * The largest distance of points along an edge of an element in spacings of the grid
-     * there: length over number of points at the last update(). Fluid passes between
-     * points that are more than about one spacing apart. Collective.
+     * there: length over number of points at the last update() (for bent edges of
+     * quadratic elements: where they are stretched most). Fluid passes between points
+     * that are more than about one spacing apart. Collective.
      */
     double largest_spacing() const;
 
@@ -155,6 +160,11 @@ namespace mitre::coupling
 
     void find_nodes();
 
+    /// The square of the length of the longest edge of an element with these nodes. An
+    /// edge with a node in between is as long as it would be if its parameter had
+    /// everywhere the largest speed that it has.
+    double longest_edge_squared(const unsigned int *nodes) const;
+
     /// Whether a box lies in owned patch @p p, away from its faces, where round-off would
     /// decide.
     bool lies_in_patch(const dealii::Point<dim> &lower,
@@ -162,7 +172,7 @@ namespace mitre::coupling
                        const unsigned int p) const;
 
     void find_points_one_by_one(const unsigned int i,
-                                const unsigned int k,
+                                const unsigned int number,
                                 const PointRule<dim> &rule);
 
     bool is_in_box(const dealii::Point<dim> &x) const;
@@ -174,9 +184,20 @@ namespace mitre::coupling
     PointRules<dim> rules_;
     const PointRule<dim> node_rule;
 
+    /// Lines of nodes along which points are counted: the ends, and the node between them
+    /// of quadratic elements.
+    struct Edge
+    {
+      unsigned int begin, end, middle;
+    };
+    const std::vector<Edge> edges;
+
+    /// How far points may be beyond the box of an element's nodes (overshoot()).
+    const double overshoot_;
+
     /// The elements that may have points here, the smallest spacing about each of them,
-    /// the least k with which its rule integrates products of linear fields exactly,
-    /// whether this rank counts its points, and its reference Jacobian (simplices).
+    /// the least k with which its rule keeps force and torque, whether this rank counts
+    /// its points, and its reference Jacobian (0 if that is not constant).
     structure::ElementSet<dim> elements_;
     std::vector<double> spacings;
     std::vector<unsigned char> smallest_k;

@@ -23,15 +23,51 @@ namespace mitre::coupling
    *
    * All integrate the product of two linear fields exactly, hypercubes that are
    * parallelepipeds from k = 2, others from k = dim on.
+   *
+   * @param degree polynomials of a total degree up to this are integrated exactly on
+   * simplices; without influence on hypercubes
    */
   template <int dim>
   dealii::Quadrature<dim> make_point_rule(const structure::ElementShape shape,
-                                          const unsigned int k);
+                                          const unsigned int k,
+                                          const unsigned int degree = 2);
+
+
+  /**
+   * What a rule must integrate so that spreading keeps the force and the torque of an
+   * element of the given kind: products of two of its fields, times the reference
+   * Jacobian where this is not constant.
+   */
+  struct Exactness
+  {
+    /// The least number of points an edge (hypercubes).
+    unsigned int points_per_edge;
+
+    /// The total degree (simplices).
+    unsigned int degree;
+  };
+
+  Exactness needed_exactness(const int dim,
+                             const structure::ElementShape shape,
+                             const unsigned int degree,
+                             const bool is_affine);
+
+
+  /**
+   * How far points of an element may lie beyond the box about its nodes, in widths of
+   * that box: half of what the Lebesgue constant of the shape functions exceeds 1 by, 0
+   * for linear elements. (With L the sum of |phi_a|, a coordinate that is within 1/2 of
+   * the middle at the nodes is within L/2 everywhere.) The constants are 5/3 and 2 for
+   * quadratic triangles and tetrahedra and (5/4)^dim for quadratic hypercubes.
+   */
+  double overshoot(const int dim,
+                   const structure::ElementShape shape,
+                   const unsigned int degree);
 
 
   /**
    * A rule with the shape functions at its points, in two layouts, and with room for
-   * vectorised loops that run over the end.
+   * vectorised loops that run over the end by up to seven numbers.
    */
   template <int dim>
   struct PointRule
@@ -54,23 +90,33 @@ namespace mitre::coupling
   };
 
 
-  /// The rules of one kind of element by their k, each made when it is first needed.
+  /// The rules of one kind of element, each made when it is first needed. A rule has a
+  /// number, that of its points an edge and of whether it is for elements that are images
+  /// of the reference element by an affine map.
   template <int dim>
   class PointRules
   {
   public:
     PointRules(const structure::ElementShape shape,
+               const unsigned int degree,
                const structure::ReferenceElement<dim> &element);
 
-    const PointRule<dim> &get(const unsigned int k)
+    static unsigned int number(const unsigned int k, const bool is_affine)
     {
-      return k < rules.size() && rules[k] != nullptr ? *rules[k] : make(k);
+      return 2 * k + (is_affine ? 0 : 1);
+    }
+
+    const PointRule<dim> &get(const unsigned int number)
+    {
+      return number < rules.size() && rules[number] != nullptr ? *rules[number]
+                                                               : make(number);
     }
 
   private:
-    const PointRule<dim> &make(const unsigned int k);
+    const PointRule<dim> &make(const unsigned int number);
 
     const structure::ElementShape shape;
+    const unsigned int degree;
     const structure::ReferenceElement<dim> &element;
     std::vector<std::unique_ptr<PointRule<dim>>> rules;
   };
