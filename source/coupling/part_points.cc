@@ -23,7 +23,9 @@ namespace mitre::coupling
     element_edges(const structure::ElementShape shape)
     {
       std::vector<std::pair<unsigned int, unsigned int>> edges;
-      if (shape == structure::ElementShape::simplex)
+      if (shape == structure::ElementShape::segment)
+        edges.emplace_back(0, 1);
+      else if (shape == structure::ElementShape::simplex)
         {
           for (unsigned int a = 0; a <= dim; ++a)
             for (unsigned int b = 0; b < a; ++b)
@@ -68,8 +70,13 @@ namespace mitre::coupling
     , body_(body)
     , density(density)
     , choice(choice)
-    , rules_(body.mesh().shape, body.reference_element())
   {
+    if (const auto *elements =
+          dynamic_cast<const structure::FiniteElementBody<dim> *>(&body))
+      rules_ = std::make_unique<PointRules<dim>>(body.mesh().shape,
+                                                 elements->reference_element());
+    else
+      AssertThrow(choice == PointChoice::nodes, dealii::ExcInternalError());
     AssertThrow(body.mesh().degree == 1,
                 base::UserError("Part " + body.name() + ": the elements of " +
                                 body.mesh().source +
@@ -191,7 +198,6 @@ namespace mitre::coupling
     counted.clear();
     jacobians.clear();
     smallest_k.clear();
-    const structure::ShapeTable<dim> &table = rules_.get(2).table;
     for (const unsigned int e : relevant)
       {
         double h = std::numeric_limits<double>::max();
@@ -199,8 +205,10 @@ namespace mitre::coupling
           h = std::min(h, grid.cell_width(levels[e], d));
         spacings.push_back(h);
         counted.push_back(counting_rank[e] == rank);
+        if (choice == PointChoice::nodes)
+          continue;
         if (mesh.shape == structure::ElementShape::simplex)
-          jacobians.push_back(determinant(table.jacobian(mesh, e, 0)));
+          jacobians.push_back(determinant(rules_->get(2).table.jacobian(mesh, e, 0)));
         smallest_k.push_back(mesh.shape == structure::ElementShape::simplex ||
                                  is_parallelepiped(mesh, e)
                                ? 2
@@ -214,9 +222,9 @@ namespace mitre::coupling
     if (choice == PointChoice::nodes)
       {
         node_weights.reinit(elements_.partitioner());
-        const std::vector<double> &lumped = body_.mass_matrix().lumped();
-        for (unsigned int i = 0; i < lumped.size(); ++i)
-          node_weights.local_element(i * dim) = lumped[i];
+        const std::vector<double> &weights = body_.node_weights();
+        for (unsigned int i = 0; i < weights.size(); ++i)
+          node_weights.local_element(i * dim) = weights[i];
         node_weights.update_ghost_values();
       }
     elements_are_known = true;
@@ -299,7 +307,7 @@ namespace mitre::coupling
             weights_[next++] = node_weights.local_element(run.element * dim);
             continue;
           }
-        const PointRule<dim> &rule = rules_.get(run.k);
+        const PointRule<dim> &rule = rules_->get(run.k);
         for (unsigned int i = 0; i < run.n_points; ++i, ++next)
           {
             const unsigned int q = run.list ? selected_[run.first + i] : run.first + i;
@@ -364,7 +372,7 @@ namespace mitre::coupling
         const unsigned int k =
           std::max<unsigned int>(static_cast<unsigned int>(wanted), smallest_k[i]);
         largest_spacing_           = std::max(largest_spacing_, length / k);
-        const PointRule<dim> &rule = rules_.get(k);
+        const PointRule<dim> &rule = rules_->get(k);
         if (counted[i])
           n_expected_points += rule.n_points;
 

@@ -27,7 +27,7 @@ namespace coupling_tests
   template <int dim>
   struct BodyInBox
   {
-    std::unique_ptr<structure::Body<dim>> body;
+    std::unique_ptr<structure::FiniteElementBody<dim>> body;
     VectorType X;
 
     BodyInBox(const ElementShape shape,
@@ -38,7 +38,7 @@ namespace coupling_tests
     {
       auto parameters           = structure_tests::make_parameters<dim>();
       parameters.mass_tolerance = mass_tolerance;
-      body                      = std::make_unique<structure::Body<dim>>(
+      body                      = std::make_unique<structure::FiniteElementBody<dim>>(
         parameters, structure_tests::make_box<dim>(shape, n), MPI_COMM_WORLD);
       body->initialize_vector(X);
       std::vector<double> positions;
@@ -101,7 +101,7 @@ namespace coupling_tests
 
   /// Irregular nodal values.
   template <int dim>
-  VectorType make_nodal_field(const structure::Body<dim> &body)
+  VectorType make_nodal_field(const structure::FiniteElementBody<dim> &body)
   {
     std::vector<double> values;
     for (const Point<dim> &s : body.mesh().nodes)

@@ -79,7 +79,7 @@ private:
 
 /// The shell of quadrilaterals, a material for each layer. The first nodes of the mesh
 /// are those of the inner circle.
-structure::Body<2>
+structure::FiniteElementBody<2>
 make_shell(const unsigned int n_around,
            const unsigned int n_layers,
            const bool isotropic,
@@ -117,7 +117,7 @@ make_shell(const unsigned int n_around,
           mesh.fibres[0].push_back(Point<2>(-std::sin(angle), std::cos(angle)));
         }
     }
-  return structure::Body<2>(parameters, mesh, MPI_COMM_WORLD);
+  return structure::FiniteElementBody<2>(parameters, mesh, MPI_COMM_WORLD);
 }
 
 double
@@ -133,7 +133,9 @@ exact_pressure(const Point<2> &x, const bool isotropic)
 
 /// Area of the polygon of the first @p n nodes.
 double
-enclosed_area(const structure::Body<2> &body, const VectorType &X, const unsigned int n)
+enclosed_area(const structure::FiniteElementBody<2> &body,
+              const VectorType &X,
+              const unsigned int n)
 {
   const std::vector<double> x = body.to_mesh_order(X);
   double area                 = 0;
@@ -229,7 +231,8 @@ run(const unsigned int n,
   const double h              = 1. / (n << (levels - 1));
   const unsigned int n_around = std::lround(2 * PI * R / (element_size * h)),
                      n_layers = std::lround(w / (element_size * h));
-  structure::Body<2> shell    = make_shell(n_around, n_layers, isotropic, nodal);
+  structure::FiniteElementBody<2> shell =
+    make_shell(n_around, n_layers, isotropic, nodal);
   VectorType X, X_half, U, F, force, middle;
   shell.initialize_vector(X);
   shell.initialize_vector(U);
