@@ -9,21 +9,23 @@
 
 namespace mitre::coupling
 {
-  void CouplingParameters::declare_parameters(dealii::ParameterHandler &prm)
+  void CouplingParameters::declare_parameters(dealii::ParameterHandler &prm,
+                                              const bool of_fibres)
   {
     std::string names;
     for (const std::string &name : kernel_names())
       names += (names.empty() ? "" : "|") + name;
 
-    prm.declare_entry(
-      "Point density",
-      "2",
-      dealii::Patterns::Double(0.1, 20),
-      "Quadrature points for each grid spacing along the longest edge of "
-      "an element as it is now, deformed; in tetrahedra and triangles the "
-      "points have no larger holes between them than those of a cube with "
-      "such edges. Too few let fluid through. Without effect on nodal "
-      "coupling.");
+    if (!of_fibres)
+      prm.declare_entry(
+        "Point density",
+        "2",
+        dealii::Patterns::Double(0.1, 20),
+        "Quadrature points for each grid spacing along the longest edge of "
+        "an element as it is now, deformed; in tetrahedra and triangles the "
+        "points have no larger holes between them than those of a cube with "
+        "such edges. Too few let fluid through. Without effect on nodal "
+        "coupling.");
     prm.declare_entry("Kernel",
                       "IB_4",
                       dealii::Patterns::Selection(names),
@@ -34,14 +36,15 @@ namespace mitre::coupling
                       "keep the interpolated velocity free of divergence. IB_5, IB_6, "
                       "BSPLINE_5, BSPLINE_6, CBS54 and CBS65 reach a cell farther than "
                       "the others and cost twice as much or more.");
-    prm.declare_entry(
-      "Coupling",
-      "elemental",
-      dealii::Patterns::Selection("elemental|nodal"),
-      "elemental: velocities are interpolated to, and forces spread from, "
-      "quadrature points in the elements; nodal: to and from the nodes "
-      "alone, with a lumped mass matrix, which is cheaper but lets fluid "
-      "through where elements are larger than the grid's cells.");
+    if (!of_fibres)
+      prm.declare_entry(
+        "Coupling",
+        "elemental",
+        dealii::Patterns::Selection("elemental|nodal"),
+        "elemental: velocities are interpolated to, and forces spread from, "
+        "quadrature points in the elements; nodal: to and from the nodes "
+        "alone, with a lumped mass matrix, which is cheaper but lets fluid "
+        "through where elements are larger than the grid's cells.");
     prm.declare_entry("Grid level",
                       "finest",
                       dealii::Patterns::Anything(),
@@ -50,12 +53,18 @@ namespace mitre::coupling
   }
 
 
-  void CouplingParameters::parse_parameters(dealii::ParameterHandler &prm)
+  void CouplingParameters::parse_parameters(dealii::ParameterHandler &prm,
+                                            const bool of_fibres)
   {
-    point_density = prm.get_double("Point density");
-    kernel        = prm.get("Kernel");
-    points =
-      prm.get("Coupling") == "nodal" ? PointChoice::nodes : PointChoice::quadrature;
+    kernel = prm.get("Kernel");
+    if (of_fibres)
+      points = PointChoice::nodes;
+    else
+      {
+        point_density = prm.get_double("Point density");
+        points =
+          prm.get("Coupling") == "nodal" ? PointChoice::nodes : PointChoice::quadrature;
+      }
     const std::string level_text = prm.get("Grid level");
     level                        = -1;
     if (level_text != "finest")
@@ -206,7 +215,7 @@ namespace mitre::coupling
     for (unsigned int i = 0; i < parts.size(); ++i)
       if (parts[i].parameters.points == PointChoice::nodes)
         {
-          const std::vector<double> &weights = body(i).mass_matrix().lumped();
+          const std::vector<double> &weights = body(i).node_weights();
           for (unsigned int node = 0; node < weights.size(); ++node)
             for (unsigned int c = 0; c < dim; ++c)
               U[i]->local_element(node * dim + c) =

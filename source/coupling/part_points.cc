@@ -26,6 +26,8 @@ namespace mitre::coupling
                                     const unsigned int degree,
                                     const std::vector<dealii::Point<dim>> &nodes)
     {
+      if (shape == structure::ElementShape::segment)
+        return {{0, 1, invalid}};
       const auto find = [&](const dealii::Point<dim> &x) -> unsigned int {
         for (unsigned int a = 0; a < nodes.size(); ++a)
           if (nodes[a].distance(x) < 1e-10)
@@ -83,6 +85,20 @@ namespace mitre::coupling
   } // namespace
 
 
+  namespace
+  {
+    /// The nodes of the reference element; none of a body of fibres.
+    template <int dim>
+    std::vector<dealii::Point<dim>> reference_nodes(const structure::Body<dim> &body)
+    {
+      const auto *elements =
+        dynamic_cast<const structure::FiniteElementBody<dim> *>(&body);
+      return elements == nullptr ? std::vector<dealii::Point<dim>>()
+                                 : elements->reference_element().nodes();
+    }
+  } // namespace
+
+
   template <int dim>
   PartPoints<dim>::PartPoints(const grid::PatchGrid<dim> &grid,
                               const structure::Body<dim> &body,
@@ -92,10 +108,9 @@ namespace mitre::coupling
     , body_(body)
     , density(density)
     , choice(choice)
-    , rules_(body.mesh().shape, body.mesh().degree, body.reference_element())
     , edges(element_edges<dim, Edge>(body.mesh().shape,
                                      body.mesh().degree,
-                                     body.reference_element().nodes()))
+                                     reference_nodes(body)))
     , overshoot_(overshoot(dim, body.mesh().shape, body.mesh().degree))
   {
     AssertThrow(
@@ -106,6 +121,12 @@ namespace mitre::coupling
         body.mesh().source + " are quadratic " + (dim == 2 ? "triangles" : "tetrahedra") +
         ", at whose corners the row sums of the mass matrix are " +
         (dim == 2 ? "zero" : "negative") + "; expected 'elemental', or other elements."));
+    if (const auto *elements =
+          dynamic_cast<const structure::FiniteElementBody<dim> *>(&body))
+      rules_ = std::make_unique<PointRules<dim>>(
+        body.mesh().shape, body.mesh().degree, elements->reference_element());
+    else
+      AssertThrow(choice == PointChoice::nodes, dealii::ExcInternalError());
   }
 
 
@@ -228,10 +249,7 @@ namespace mitre::coupling
     counted.clear();
     jacobians.clear();
     smallest_k.clear();
-    const std::vector<dealii::Point<dim>> &reference_nodes =
-      body_.reference_element().nodes();
-    const structure::ShapeTable<dim> &table =
-      rules_.get(PointRules<dim>::number(2, true)).table;
+    const std::vector<dealii::Point<dim>> nodes_of_element = reference_nodes(body_);
     for (const unsigned int e : relevant)
       {
         double h = std::numeric_limits<double>::max();
@@ -239,8 +257,14 @@ namespace mitre::coupling
           h = std::min(h, grid.cell_width(levels[e], d));
         spacings.push_back(h);
         counted.push_back(counting_rank[e] == rank);
-        const bool affine = is_affine(mesh, e, reference_nodes);
-        jacobians.push_back(affine ? determinant(table.jacobian(mesh, e, 0)) : 0.);
+        if (choice == PointChoice::nodes)
+          continue;
+        const bool affine = is_affine(mesh, e, nodes_of_element);
+        jacobians.push_back(
+          affine
+            ? determinant(
+                rules_->get(PointRules<dim>::number(2, true)).table.jacobian(mesh, e, 0))
+            : 0.);
         smallest_k.push_back(
           mesh.shape == structure::ElementShape::simplex
             ? 2
@@ -254,9 +278,9 @@ namespace mitre::coupling
     if (choice == PointChoice::nodes)
       {
         node_weights.reinit(elements_.partitioner());
-        const std::vector<double> &lumped = body_.mass_matrix().lumped();
-        for (unsigned int i = 0; i < lumped.size(); ++i)
-          node_weights.local_element(i * dim) = lumped[i];
+        const std::vector<double> &weights = body_.node_weights();
+        for (unsigned int i = 0; i < weights.size(); ++i)
+          node_weights.local_element(i * dim) = weights[i];
         node_weights.update_ghost_values();
       }
     elements_are_known = true;
@@ -354,7 +378,7 @@ namespace mitre::coupling
             weights_[next++] = node_weights.local_element(run.element * dim);
             continue;
           }
-        const PointRule<dim> &rule = rules_.get(run.rule);
+        const PointRule<dim> &rule = rules_->get(run.rule);
         const double jacobian      = jacobians[run.element];
         for (unsigned int i = 0; i < run.n_points; ++i, ++next)
           {
@@ -411,7 +435,7 @@ namespace mitre::coupling
         largest_spacing_ = std::max(largest_spacing_, length / k);
         const unsigned int number =
           PointRules<dim>::number(k, !simplices || jacobians[i] != 0);
-        const PointRule<dim> &rule = rules_.get(number);
+        const PointRule<dim> &rule = rules_->get(number);
         if (counted[i])
           n_expected_points += rule.n_points;
 

@@ -144,7 +144,10 @@ namespace mitre::coupling
         if (k >= rule_sizes.size())
           rule_sizes.resize(k + 1, 0.);
         if (rule_sizes[k] == 0)
-          rule_sizes[k] = make_point_rule<dim>(mesh.shape, k, exactness.degree).size();
+          rule_sizes[k] =
+            parameters.points == PointChoice::nodes
+              ? 1
+              : make_point_rule<dim>(mesh.shape, k, exactness.degree).size();
         for_each_bin(bins_of(centroid, centroid), [&](const std::uint64_t key) {
           bins[key].n_points += rule_sizes[k];
         });

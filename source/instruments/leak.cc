@@ -198,7 +198,8 @@ namespace mitre::instruments
   std::vector<double> Leak<dim>::measure(const Observation<dim> &observation)
   {
     const ObservedPart<dim> &observed = observation.find_part(part, name);
-    const structure::Body<dim> &body  = *observed.body;
+    const structure::FiniteElementBody<dim> &body =
+      observation.find_finite_elements(part, name);
     if (faces.empty())
       find_faces(body.mesh());
 

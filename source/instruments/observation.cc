@@ -21,6 +21,20 @@ namespace mitre::instruments
   }
 
 
+  template <int dim>
+  const structure::FiniteElementBody<dim> &
+  Observation<dim>::find_finite_elements(const std::string &name,
+                                         const std::string &instrument) const
+  {
+    const auto *body = dynamic_cast<const structure::FiniteElementBody<dim> *>(
+      find_part(name, instrument).body);
+    AssertThrow(body != nullptr,
+                base::UserError("Instrument " + instrument + ": the part " + name +
+                                " consists of fibres; expected one of finite elements."));
+    return *body;
+  }
+
+
   template struct Observation<2>;
   template struct Observation<3>;
 } // namespace mitre::instruments

@@ -34,8 +34,9 @@ namespace mitre::instruments
   std::vector<double> PartVolume<dim>::measure(const Observation<dim> &observation)
   {
     const ObservedPart<dim> &observed = observation.find_part(part, name);
-    const structure::Body<dim> &body  = *observed.body;
-    const auto &elements              = body.elements();
+    const structure::FiniteElementBody<dim> &body =
+      observation.find_finite_elements(part, name);
+    const auto &elements = body.elements();
     const structure::ShapeTable<dim> shape(body.reference_element(),
                                            body.reference_element().force_quadrature());
 

@@ -123,7 +123,8 @@ namespace mitre::instruments
   std::vector<double> StressAndStrain<dim>::measure(const Observation<dim> &observation)
   {
     const ObservedPart<dim> &observed = observation.find_part(part, name);
-    const structure::Body<dim> &body  = *observed.body;
+    const structure::FiniteElementBody<dim> &body =
+      observation.find_finite_elements(part, name);
 
     // Step 1: to which columns the materials belong.
     constexpr unsigned int none = dealii::numbers::invalid_unsigned_int;

@@ -12,6 +12,7 @@
 #include <mitre/grid/velocity_halo.h>
 #include <mitre/io/output.h>
 #include <mitre/io/safe_file.h>
+#include <mitre/structure/fibre_body.h>
 
 namespace mitre::io
 {
@@ -328,6 +329,8 @@ namespace mitre::io
                    : Cell(29, {0,  1,  3,  2,  4,  5,  7,  6,  10, 9,  11, 8,  14, 13,
                                15, 12, 16, 17, 19, 18, 20, 21, 22, 23, 24, 25, 26});
         }
+      if (shape == structure::ElementShape::segment)
+        return Cell(3, {0, 1});
       if (shape == structure::ElementShape::simplex)
         return dim == 2 ? std::make_pair(5, std::vector<unsigned int>{0, 1, 2})
                         : std::make_pair(10, std::vector<unsigned int>{0, 1, 2, 3});
@@ -350,8 +353,9 @@ namespace mitre::io
 
     /// Deformed over reference volume by element; @p X by node and component.
     template <int dim>
-    std::vector<float> compute_volume_ratios(const structure::Body<dim> &body,
-                                             const std::vector<double> &X)
+    std::vector<float>
+    compute_volume_ratios(const structure::FiniteElementBody<dim> &body,
+                          const std::vector<double> &X)
     {
       structure::Mesh<dim> deformed = body.mesh();
       for (std::size_t i = 0; i < X.size(); ++i)
@@ -374,14 +378,55 @@ namespace mitre::io
     }
 
 
-    /// The VTU file of a part; @p X and @p U by node and component, @p fields those that
-    /// the part names, by element.
+    /// A field by element.
+    struct CellField
+    {
+      std::string name;
+      unsigned int n_components;
+      std::vector<float> values;
+    };
+
+
+    /// The fields of a part. Collective.
+    template <int dim>
+    std::vector<CellField> compute_cell_fields(const structure::Body<dim> &body,
+                                               const structure::VectorType &X,
+                                               const std::vector<double> &positions,
+                                               const double time)
+    {
+      const auto as_floats = [](const std::vector<double> &values) {
+        return std::vector<float>(values.begin(), values.end());
+      };
+      if (const auto *fibres = dynamic_cast<const structure::FibreBody<dim> *>(&body))
+        return {{"tension [dyn]", 1, as_floats(fibres->compute_tensions(positions))}};
+
+      const auto &elements =
+        dynamic_cast<const structure::FiniteElementBody<dim> &>(body);
+      std::vector<CellField> result = {
+        {"J", 1, compute_volume_ratios(elements, positions)}};
+      const std::vector<std::string> &names = elements.element_fields();
+      const std::vector<std::vector<double>> fields =
+        elements.compute_element_fields(names, X, time);
+      for (unsigned int k = 0; k < fields.size(); ++k)
+        if (names[k] != "J")
+          {
+            const auto &quantity = structure::find_stress_quantity<dim>(names[k]);
+            result.push_back(
+              {quantity.name + (quantity.unit.empty() ? "" : " [" + quantity.unit + "]"),
+               quantity.n_components,
+               as_floats(fields[k])});
+          }
+      return result;
+    }
+
+
+    /// The VTU file of a part; @p X and @p U by node and component.
     template <int dim>
     void write_body(std::ostream &out,
                     const structure::Body<dim> &body,
                     const std::vector<double> &X,
                     const std::vector<double> &U,
-                    const std::vector<std::vector<double>> &fields)
+                    const std::vector<CellField> &fields)
     {
       const structure::Mesh<dim> &mesh = body.mesh();
       const auto [type, corners]       = vtk_cell<dim>(mesh.shape, mesh.degree);
@@ -391,10 +436,18 @@ namespace mitre::io
         displacement[i] -= mesh.nodes[i / dim][i % dim];
 
       std::vector<std::int32_t> connectivity, offsets;
+      std::vector<unsigned char> types(mesh.n_elements(), type);
       for (unsigned int e = 0; e < mesh.n_elements(); ++e)
         {
           for (const unsigned int corner : corners)
             connectivity.push_back(mesh.elements[e * mesh.nodes_per_element + corner]);
+          // a node by itself
+          if (mesh.shape == structure::ElementShape::segment &&
+              connectivity.back() == connectivity[connectivity.size() - 2])
+            {
+              connectivity.pop_back();
+              types[e] = 1;
+            }
           offsets.push_back(connectivity.size());
         }
 
@@ -409,31 +462,21 @@ namespace mitre::io
       out << "</Points>\n<Cells>\n";
       write_array(out, "Int32", "connectivity", 1, connectivity);
       write_array(out, "Int32", "offsets", 1, offsets);
-      write_array(
-        out, "UInt8", "types", 1, std::vector<unsigned char>(mesh.n_elements(), type));
+      write_array(out, "UInt8", "types", 1, types);
       out << "</Cells>\n<PointData Vectors=\"displacement\">\n";
       write_array(out, "Float32", "displacement", 3, pad_vectors<dim>(displacement));
       write_array(out, "Float32", "velocity", 3, pad_vectors<dim>(U));
-      out << "</PointData>\n<CellData Scalars=\"J\">\n";
-      write_array(out, "Float32", "J", 1, compute_volume_ratios(body, X));
+      out << "</PointData>\n<CellData Scalars=\"" << fields[0].name << "\">\n";
+      write_array(out, "Float32", fields[0].name, 1, fields[0].values);
       write_array(
         out,
         "Int32",
         "material id",
         1,
         std::vector<std::int32_t>(mesh.material_ids.begin(), mesh.material_ids.end()));
-      for (unsigned int k = 0; k < fields.size(); ++k)
-        if (body.element_fields()[k] != "J")
-          {
-            const auto &quantity =
-              structure::find_stress_quantity<dim>(body.element_fields()[k]);
-            write_array(out,
-                        "Float32",
-                        quantity.name +
-                          (quantity.unit.empty() ? "" : " [" + quantity.unit + "]"),
-                        quantity.n_components,
-                        std::vector<float>(fields[k].begin(), fields[k].end()));
-          }
+      for (unsigned int k = 1; k < fields.size(); ++k)
+        write_array(
+          out, "Float32", fields[k].name, fields[k].n_components, fields[k].values);
       out << "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
     }
   } // namespace
@@ -560,8 +603,7 @@ namespace mitre::io
 
     const std::vector<double> positions  = body.to_mesh_order(X);
     const std::vector<double> velocities = body.to_mesh_order(U);
-    const std::vector<std::vector<double>> fields =
-      body.compute_element_fields(body.element_fields(), X, time);
+    const std::vector<CellField> fields  = compute_cell_fields(body, X, positions, time);
     call_together(communicator, [&]() {
       if (rank == 0)
         {

@@ -91,6 +91,35 @@ namespace mitre::simulation
 
 
   template <int dim>
+  structure::StableTimeStep Simulation<dim>::estimate_fibre_step(const unsigned int part)
+  {
+    grid::VectorType spread;
+    fluid->operators().initialize_velocity(spread);
+    std::vector<structure::VectorType> densities(parts.size()), velocities(parts.size());
+    std::vector<const structure::VectorType *> density_pointers;
+    std::vector<structure::VectorType *> velocity_pointers;
+    for (unsigned int i = 0; i < parts.size(); ++i)
+      {
+        parts[i].body->initialize_vector(densities[i]);
+        parts[i].body->initialize_vector(velocities[i]);
+        density_pointers.push_back(&densities[i]);
+        velocity_pointers.push_back(&velocities[i]);
+      }
+    return structure::estimate_stable_time_step(
+      *parts[part].body,
+      parts[part].X,
+      current_time,
+      fluid_parameters.density,
+      [&](const structure::VectorType &density, structure::VectorType &acceleration) {
+        densities[part] = density;
+        fe_coupling->spread(density_pointers, spread);
+        fe_coupling->interpolate(spread, velocity_pointers);
+        acceleration = velocities[part];
+      });
+  }
+
+
+  template <int dim>
   std::vector<std::string> Simulation<dim>::validate(std::ostream &out)
   {
     // Step 1: what can be seen at once.
@@ -132,19 +161,32 @@ namespace mitre::simulation
       }
     out << "  longest stable steps, for a \"Time step\" of " << largest_time_step
         << " s:\n";
+    for (unsigned int i = 0; i < parts.size(); ++i)
+      if (parts[i].body->mesh().shape == structure::ElementShape::segment)
+        {
+          const structure::StableTimeStep estimate = estimate_fibre_step(i);
+          if (!estimate.limited_by.empty())
+            limits.push_back(
+              {"fibre part " + estimate.part + " (" + estimate.limited_by + ")",
+               estimate.time_step,
+               "a smaller stiffness of the part"});
+        }
     check_step_limits(limits, largest_time_step, findings, out);
-    if (!parts.empty())
+    if (std::any_of(parts.begin(), parts.end(), [](const Part &part) {
+          return part.body->mesh().shape != structure::ElementShape::segment;
+        }))
       {
         out
           << "    elastic forces, if tissue moved without the fluid around it (with it, "
              "several times as long where elements are as fine as the cells):\n";
         for (const Part &part : parts)
-          out << "      part " << part.body->name() << ": "
-              << structure::describe(structure::estimate_stable_time_step(
-                   *part.body, part.X, current_time, fluid_parameters.density))
-              << "\n";
+          if (part.body->mesh().shape != structure::ElementShape::segment)
+            out << "      part " << part.body->name() << ": "
+                << structure::describe(structure::estimate_stable_time_step(
+                     *part.body, part.X, current_time, fluid_parameters.density))
+                << "\n";
       }
-    else
+    else if (parts.empty())
       out << "    no explicit forces\n";
 
     // Step 3: two steps on trial. The second is like those that follow.

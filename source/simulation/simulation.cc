@@ -15,9 +15,11 @@
 #include <mitre/base/progress.h>
 #include <mitre/coupling/kernels.h>
 #include <mitre/fluid/vorticity_map.h>
+#include <mitre/io/fibre_files.h>
 #include <mitre/io/mesh_reader.h>
 #include <mitre/io/safe_file.h>
 #include <mitre/simulation/simulation.h>
+#include <mitre/structure/fibre_body.h>
 #include <mitre/structure/library.h>
 
 namespace mitre::simulation
@@ -27,6 +29,8 @@ namespace mitre::simulation
   namespace
   {
     const char *const component_names[3] = {"x", "y", "z"};
+
+    const std::vector<std::string> part_kinds = {"finite elements", "fibres"};
 
     double wall_clock()
     {
@@ -115,8 +119,19 @@ namespace mitre::simulation
     for (const std::string &name : part_names)
       {
         prm.enter_subsection("Part " + name);
-        structure::BodyParameters<dim>::declare_parameters(prm);
-        coupling::CouplingParameters::declare_parameters(prm);
+        const bool of_fibres =
+          base::declare_choice(
+            prm,
+            "Kind",
+            part_kinds[0],
+            part_kinds,
+            "finite elements: a mesh with constitutive laws; fibres: springs, beams and "
+            "target points between nodes, which meet the fluid there.") == part_kinds[1];
+        if (of_fibres)
+          structure::FibreParameters<dim>::declare_parameters(prm);
+        else
+          structure::BodyParameters<dim>::declare_parameters(prm);
+        coupling::CouplingParameters::declare_parameters(prm, of_fibres);
         prm.leave_subsection();
       }
     prm.leave_subsection();
@@ -174,7 +189,12 @@ namespace mitre::simulation
                        fluid::boundary_condition_registry<dim>().names()) +
            "end\n"
            "subsection Structure\n"
-           "set Parts = NAME\n"
+           "set Parts = NAME, FIBRES\n"
+           "subsection Part FIBRES\n"
+           "set Kind = fibres\n" +
+           one_of_each(
+             "Spring laws", "Spring law", "Type", structure::spring_laws().names()) +
+           "end\n"
            "subsection Part NAME\n" +
            one_of_each("Materials",
                        "Material",
@@ -299,10 +319,15 @@ namespace mitre::simulation
     for (const std::string &name : base::parse_names(prm.get("Parts")))
       {
         prm.enter_subsection("Part " + name);
-        structure::BodyParameters<dim> body_parameters;
-        body_parameters.parse_parameters(prm, name);
         Part part;
-        part.coupling_parameters.parse_parameters(prm);
+        const bool of_fibres = prm.get("Kind") == part_kinds[1];
+        structure::FibreParameters<dim> fibre_parameters;
+        structure::BodyParameters<dim> body_parameters;
+        if (of_fibres)
+          fibre_parameters.parse_parameters(prm, name);
+        else
+          body_parameters.parse_parameters(prm, name);
+        part.coupling_parameters.parse_parameters(prm, of_fibres);
         // Forces that are spread from nodes balance with lumped masses.
         if (part.coupling_parameters.points == coupling::PointChoice::nodes)
           body_parameters.consistent_mass = false;
@@ -314,13 +339,26 @@ namespace mitre::simulation
                                 std::to_string(finest) + ".");
         prm.leave_subsection();
 
-        if (body_parameters.mesh_file.empty())
-          throw base::UserError("Part " + name +
-                                ": the parameter \"Mesh file\" is not set.");
-        structure::Mesh<dim> mesh =
-          io::read_mesh<dim>(body_parameters.mesh_file, communicator);
-        part.body = std::make_unique<structure::Body<dim>>(
-          std::move(body_parameters), std::move(mesh), communicator);
+        if (of_fibres)
+          {
+            if (fibre_parameters.vertex_file.empty())
+              throw base::UserError("Part " + name +
+                                    ": the parameter \"Vertex file\" is not set.");
+            structure::FibreNetwork<dim> network =
+              io::read_fibres<dim>(fibre_parameters.vertex_file, communicator);
+            part.body = std::make_unique<structure::FibreBody<dim>>(
+              std::move(fibre_parameters), std::move(network), communicator);
+          }
+        else
+          {
+            if (body_parameters.mesh_file.empty())
+              throw base::UserError("Part " + name +
+                                    ": the parameter \"Mesh file\" is not set.");
+            structure::Mesh<dim> mesh =
+              io::read_mesh<dim>(body_parameters.mesh_file, communicator);
+            part.body = std::make_unique<structure::FiniteElementBody<dim>>(
+              std::move(body_parameters), std::move(mesh), communicator);
+          }
 
         // parts must lie in the box before the grid can be built around them
         const auto &box = patch_grid->box();
@@ -694,7 +732,9 @@ namespace mitre::simulation
                       << parts[i].body->name() << " are " << std::setprecision(3)
                       << spacing << std::setprecision(6)
                       << " grid spacings apart; fluid may pass between them. "
-                      << (parts[i].coupling_parameters.points ==
+                      << (parts[i].body->mesh().shape == structure::ElementShape::segment
+                            ? "More nodes prevent it."
+                          : parts[i].coupling_parameters.points ==
                               coupling::PointChoice::nodes
                             ? "\"Coupling = elemental\" or a finer mesh prevents it."
                             : "A larger \"Point density\" prevents it.")
@@ -727,11 +767,7 @@ namespace mitre::simulation
         << patch_grid->cell_width(patch_grid->maximum_level(), 0)
         << " cm at the finest level " << patch_grid->maximum_level() << '\n';
     for (const Part &part : parts)
-      {
-        const structure::Mesh<dim> &mesh = part.body->mesh();
-        out << "  part " << part.body->name() << ": " << mesh.n_elements()
-            << " elements, " << mesh.nodes.size() << " nodes (" << mesh.source << ")\n";
-      }
+      out << "  part " << part.body->name() << ": " << part.body->description() << '\n';
     if (wanted_courant_number > 0.)
       out << "  steps of at most " << largest_time_step << " s, Courant number "
           << wanted_courant_number;

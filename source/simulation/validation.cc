@@ -145,17 +145,25 @@ namespace mitre::simulation
           lower[d] = std::min(lower[d], node[d]);
           upper[d] = std::max(upper[d], node[d]);
         }
-    std::vector<double> edges(mesh.n_elements());
+    const bool of_fibres = mesh.shape == structure::ElementShape::segment;
+    std::vector<double> edges;
+    std::vector<unsigned int> numbers;
     std::size_t n_fine = 0, n_poor = 0;
     unsigned int worst       = 0;
     double worst_quality     = std::numeric_limits<double>::max();
     double shortest_in_cells = std::numeric_limits<double>::max();
     for (unsigned int e = 0; e < mesh.n_elements(); ++e)
       {
-        edges[e]          = longest_edge(mesh, e) / h;
-        shortest_in_cells = std::min(shortest_in_cells, edges[e]);
-        n_fine += edges[e] < 0.5 ? 1 : 0;
-        const double quality = element_quality(mesh, e);
+        const double edge = longest_edge(mesh, e) / h;
+        // nodes of fibres by themselves
+        if (of_fibres && edge == 0.)
+          continue;
+        edges.push_back(edge);
+        numbers.push_back(e);
+        shortest_in_cells = std::min(shortest_in_cells, edge);
+        // Fibres hold their nodes apart at any distance.
+        n_fine += !of_fibres && edge < 0.5 ? 1 : 0;
+        const double quality = of_fibres ? 1. : element_quality(mesh, e);
         n_poor += quality < poor_quality ? 1 : 0;
         if (quality < worst_quality)
           {
@@ -163,19 +171,35 @@ namespace mitre::simulation
             worst         = e;
           }
       }
-    const unsigned int longest =
-      std::max_element(edges.begin(), edges.end()) - edges.begin();
-    std::vector<double> sorted = edges;
-    std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-    const double median = sorted[sorted.size() / 2];
-
     out << "    from " << structure::to_string(lower) << " to "
         << structure::to_string(upper) << " cm, on level " << level << " (cells of " << h
-        << " cm), kernel " << part.coupling.kernel << ", " << part.coupling.point_density
-        << " points a cell\n"
-        << "    longest edges of elements: " << shortest_in_cells << " to "
-        << edges[longest] << " cells, median " << median << "; quality at least "
-        << worst_quality << " (1: regular)\n";
+        << " cm), kernel " << part.coupling.kernel;
+    if (!of_fibres)
+      out << ", " << part.coupling.point_density << " points a cell";
+    out << '\n';
+    double longest_in_cells = 0.;
+    unsigned int longest    = 0;
+    if (!edges.empty())
+      {
+        const auto largest         = std::max_element(edges.begin(), edges.end());
+        longest_in_cells           = *largest;
+        longest                    = numbers[largest - edges.begin()];
+        std::vector<double> sorted = edges;
+        const auto middle          = sorted.begin() + sorted.size() / 2;
+        std::nth_element(sorted.begin(), middle, sorted.end());
+        out << "    " << (of_fibres ? "segments" : "longest edges of elements") << ": "
+            << shortest_in_cells << " to " << longest_in_cells << " cells, median "
+            << *middle;
+        if (!of_fibres)
+          out << "; quality at least " << worst_quality << " (1: regular)";
+        out << '\n';
+      }
+    if (of_fibres && longest_in_cells > 1.)
+      findings.warnings.push_back(
+        prefix + "the " + mesh.describe_element(longest) + " is " +
+        text(longest_in_cells) +
+        " grid cells long; fluid may pass between its nodes. Use more nodes or a coarser "
+        "grid, if the part shall hold fluid back.");
 
     if (n_poor > 0)
       findings.warnings.push_back(
@@ -191,10 +215,11 @@ namespace mitre::simulation
         " cm). Such nodes can drift apart in ways that the grid does not feel: use "
         "elements of half a cell to four cells, or a finer grid.");
     // The run stops at 64 points an edge: warn if a twofold stretch would do that.
-    if (edges[longest] * part.coupling.point_density > 32.)
+    if (part.coupling.points == coupling::PointChoice::quadrature &&
+        longest_in_cells * part.coupling.point_density > 32.)
       findings.warnings.push_back(
         prefix + "the longest edge of the " + mesh.describe_element(longest) + " is " +
-        text(edges[longest]) +
+        text(longest_in_cells) +
         " grid cells, so that it needs very many quadrature points; the run would stop "
         "if it was stretched. Use a finer mesh or another unit of length (cm).");
 

@@ -14,6 +14,48 @@
 namespace mitre::structure
 {
   template <int dim>
+  void declare_constraints(dealii::ParameterHandler &prm)
+  {
+    for (const std::string &name :
+         base::declare_names(prm,
+                             "Constraints",
+                             "",
+                             "Names of the constraints; each is described in 'subsection "
+                             "Constraint NAME'."))
+      {
+        prm.enter_subsection("Constraint " + name);
+        const std::string type = base::declare_choice(
+          prm,
+          "Type",
+          structure::constraints<dim>().names().front(),
+          structure::constraints<dim>().names(),
+          "Kind of constraint.\n" + structure::constraints<dim>().help());
+        structure::constraints<dim>().declare_parameters(type, prm);
+        prm.leave_subsection();
+      }
+  }
+
+
+  template <int dim>
+  std::vector<NamedConstraint<dim>> parse_constraints(dealii::ParameterHandler &prm,
+                                                      const std::string &part)
+  {
+    std::vector<NamedConstraint<dim>> constraints;
+    for (const std::string &constraint_name : base::parse_names(prm.get("Constraints")))
+      {
+        const std::string what = "Part " + part + ", constraint " + constraint_name;
+
+        prm.enter_subsection("Constraint " + constraint_name);
+        constraints.push_back(
+          {constraint_name, structure::constraints<dim>().create(prm.get("Type"))});
+        constraints.back().constraint->parse_parameters(prm, what);
+        prm.leave_subsection();
+      }
+    return constraints;
+  }
+
+
+  template <int dim>
   void BodyParameters<dim>::declare_parameters(dealii::ParameterHandler &prm)
   {
     prm.declare_entry("Mesh file",
@@ -71,23 +113,7 @@ namespace mitre::structure
         prm.leave_subsection();
       }
 
-    for (const std::string &name :
-         base::declare_names(prm,
-                             "Constraints",
-                             "",
-                             "Names of the constraints; each is described in 'subsection "
-                             "Constraint NAME'."))
-      {
-        prm.enter_subsection("Constraint " + name);
-        const std::string type = base::declare_choice(
-          prm,
-          "Type",
-          structure::constraints<dim>().names().front(),
-          structure::constraints<dim>().names(),
-          "Kind of constraint.\n" + structure::constraints<dim>().help());
-        structure::constraints<dim>().declare_parameters(type, prm);
-        prm.leave_subsection();
-      }
+    declare_constraints<dim>(prm);
 
     for (const std::string &name :
          base::declare_names(prm,
@@ -137,17 +163,7 @@ namespace mitre::structure
         materials.push_back(std::move(material));
       }
 
-    constraints.clear();
-    for (const std::string &constraint_name : base::parse_names(prm.get("Constraints")))
-      {
-        const std::string what = "Part " + part + ", constraint " + constraint_name;
-
-        prm.enter_subsection("Constraint " + constraint_name);
-        constraints.push_back(
-          {constraint_name, structure::constraints<dim>().create(prm.get("Type"))});
-        constraints.back().constraint->parse_parameters(prm, what);
-        prm.leave_subsection();
-      }
+    constraints = parse_constraints<dim>(prm, part);
 
     loads.clear();
     for (const std::string &load_name : base::parse_names(prm.get("Loads")))
@@ -163,15 +179,36 @@ namespace mitre::structure
 
 
   template <int dim>
-  Body<dim>::Body(BodyParameters<dim> parameters_,
+  Body<dim>::Body(const std::string &name,
                   Mesh<dim> mesh,
+                  std::vector<NamedConstraint<dim>> constraints,
+                  std::vector<NamedLoad<dim>> loads,
                   const MPI_Comm communicator)
-    : parameters(std::move(parameters_))
-    , mesh_(parameters.fibre_rule.apply(std::move(mesh)))
-    , reference_element_(mesh_.shape, mesh_.degree)
+    : name_(name)
+    , mesh_(std::move(mesh))
+    , constraints_(std::move(constraints))
+    , loads_(std::move(loads))
   {
+    numbering_.communicator = communicator;
+  }
+
+
+  template <int dim>
+  FiniteElementBody<dim>::FiniteElementBody(BodyParameters<dim> parameters_,
+                                            Mesh<dim> mesh,
+                                            const MPI_Comm communicator)
+    : Body<dim>(parameters_.name,
+                parameters_.fibre_rule.apply(std::move(mesh)),
+                parameters_.constraints,
+                parameters_.loads,
+                communicator)
+    , parameters(std::move(parameters_))
+    , reference_element_(this->mesh().shape, this->mesh().degree)
+  {
+    const Mesh<dim> &mesh_  = this->mesh();
+    const std::string &name = this->name();
     AssertThrow(mesh_.n_elements() > 0,
-                base::UserError("Part " + name() + ": the mesh " + mesh_.source +
+                base::UserError("Part " + name + ": the mesh " + mesh_.source +
                                 " has no elements."));
     if (!parameters.rigid)
       check_materials();
@@ -181,51 +218,57 @@ namespace mitre::structure
       }
     catch (const base::UserError &error)
       {
-        throw base::UserError("Part " + name() + ": " + error.what());
+        throw base::UserError("Part " + name + ": " + error.what());
       }
 
     AssertThrow(
       parameters.consistent_mass || mesh_.shape == ElementShape::hypercube ||
         mesh_.degree == 1,
       base::UserError(
-        "Part " + name() +
+        "Part " + name +
         ": \"Mass matrix\" is 'lumped', as nodal coupling "
         "has it, but the elements of " +
         mesh_.source + " are quadratic " + (dim == 2 ? "triangles" : "tetrahedra") +
         ", at whose corners the row sums are " + (dim == 2 ? "zero" : "negative") +
         "; expected 'consistent' and elemental coupling, or linear elements."));
-    for (const NamedConstraint<dim> &c : parameters.constraints)
-      c.constraint->initialize(mesh_);
-    for (const NamedLoad<dim> &l : parameters.loads)
-      l.load->initialize(mesh_);
-
-    const unsigned int n_ranks  = dealii::Utilities::MPI::n_mpi_processes(communicator);
-    const std::uint64_t n_nodes = mesh_.nodes.size();
-    std::vector<unsigned int> owners(n_nodes);
-    for (std::uint64_t i = 0; i < n_nodes; ++i)
-      owners[i] = i * n_ranks / n_nodes;
-    numbering_.communicator = communicator;
-    setup(owners);
-
-    for (const NamedConstraint<dim> &c : parameters.constraints)
-      AssertThrow(dealii::Utilities::MPI::sum(c.constraint->n_nodes(), communicator) > 0,
-                  base::UserError("Part " + name() + ", constraint " + c.name +
-                                  ": no node of " + mesh_.source +
-                                  " is in its region and material ids."));
-    for (const NamedLoad<dim> &l : parameters.loads)
-      AssertThrow(dealii::Utilities::MPI::sum(l.load->n_elements(), communicator) > 0,
-                  base::UserError("Part " + name() + ", load " + l.name +
-                                  ": no element or face of " + mesh_.source +
-                                  " is in its region and has its ids."));
+    this->deal_out_nodes();
     if (parameters.rigid)
       check_rigid();
   }
 
 
   template <int dim>
-  void Body<dim>::check_rigid() const
+  void Body<dim>::deal_out_nodes()
   {
-    const std::string prefix = "Part " + name() + ": \"Rigid\" is true, but ";
+    for (const NamedConstraint<dim> &c : constraints_)
+      c.constraint->initialize(mesh_);
+    for (const NamedLoad<dim> &l : loads_)
+      l.load->initialize(mesh_);
+
+    const unsigned int n_ranks  = dealii::Utilities::MPI::n_mpi_processes(communicator());
+    const std::uint64_t n_nodes = mesh_.nodes.size();
+    std::vector<unsigned int> owners(n_nodes);
+    for (std::uint64_t i = 0; i < n_nodes; ++i)
+      owners[i] = i * n_ranks / n_nodes;
+    setup(owners);
+
+    for (const NamedConstraint<dim> &c : constraints_)
+      AssertThrow(
+        dealii::Utilities::MPI::sum(c.constraint->n_nodes(), communicator()) > 0,
+        base::UserError("Part " + name() + ", constraint " + c.name + ": no node of " +
+                        mesh_.source + " is in its region and material ids."));
+    for (const NamedLoad<dim> &l : loads_)
+      AssertThrow(dealii::Utilities::MPI::sum(l.load->n_elements(), communicator()) > 0,
+                  base::UserError("Part " + name() + ", load " + l.name +
+                                  ": no element or face of " + mesh_.source +
+                                  " is in its region and has its ids."));
+  }
+
+
+  template <int dim>
+  void FiniteElementBody<dim>::check_rigid() const
+  {
+    const std::string prefix = "Part " + this->name() + ": \"Rigid\" is true, but ";
     AssertThrow(parameters.materials.empty(),
                 base::UserError(prefix + "the part has the material '" +
                                 parameters.materials.front().name +
@@ -236,27 +279,27 @@ namespace mitre::structure
                                 "'; expected none, as the part has no stress."));
 
     VectorType X;
-    initialize_vector(X);
+    this->initialize_vector(X);
     X = std::numeric_limits<double>::quiet_NaN();
-    set_to_held_positions(0., X);
-    const std::vector<double> values = to_mesh_order(X);
+    this->set_to_held_positions(0., X);
+    const std::vector<double> values = this->to_mesh_order(X);
     for (std::size_t i = 0; i < values.size(); ++i)
       AssertThrow(std::isfinite(values[i]),
                   base::UserError(prefix + "no constraint holds the node at " +
-                                  to_string(mesh_.nodes[i / dim]) + " in " +
-                                  mesh_.source + " in the direction " + "xyz"[i % dim] +
-                                  "; expected a tether on all nodes."));
+                                  to_string(this->mesh().nodes[i / dim]) + " in " +
+                                  this->mesh().source + " in the direction " +
+                                  "xyz"[i % dim] + "; expected a tether on all nodes."));
   }
 
 
   template <int dim>
-  void Body<dim>::check_materials() const
+  void FiniteElementBody<dim>::check_materials() const
   {
-    const std::string prefix = "Part " + name() + ": ";
+    const std::string prefix = "Part " + this->name() + ": ";
 
     std::map<unsigned int, unsigned int> first_element;
-    for (unsigned int e = 0; e < mesh_.n_elements(); ++e)
-      first_element.emplace(mesh_.material_ids[e], e);
+    for (unsigned int e = 0; e < this->mesh().n_elements(); ++e)
+      first_element.emplace(this->mesh().material_ids[e], e);
 
     std::map<unsigned int, const Material<dim> *> material_of_id;
     for (const Material<dim> &material : parameters.materials)
@@ -276,15 +319,15 @@ namespace mitre::structure
                 known += (known.empty() ? "" : ", ") + std::to_string(mesh_id);
               throw base::UserError(prefix + "the material '" + material.name +
                                     "' has the id " + std::to_string(id) +
-                                    ", but the mesh " + mesh_.source +
+                                    ", but the mesh " + this->mesh().source +
                                     " has no element with it. Its ids: " + known + ".");
             }
-          AssertThrow(material.law->n_fibre_families() <= mesh_.n_fibre_families(),
+          AssertThrow(material.law->n_fibre_families() <= this->mesh().n_fibre_families(),
                       base::UserError(
                         prefix + "the law of the material '" + material.name +
                         "' needs " + std::to_string(material.law->n_fibre_families()) +
-                        " fibre direction(s) an element, but " + mesh_.source + " has " +
-                        std::to_string(mesh_.n_fibre_families()) +
+                        " fibre direction(s) an element, but " + this->mesh().source +
+                        " has " + std::to_string(this->mesh().n_fibre_families()) +
                         ": an $ElementData section \"fibre\" is expected there."));
         }
 
@@ -294,15 +337,15 @@ namespace mitre::structure
         AssertThrow(material != material_of_id.end(),
                     base::UserError(prefix + "no material has the id " +
                                     std::to_string(id) + " of the " +
-                                    mesh_.describe_element(e) + "."));
+                                    this->mesh().describe_element(e) + "."));
       }
-    for (unsigned int e = 0; e < mesh_.n_elements(); ++e)
+    for (unsigned int e = 0; e < this->mesh().n_elements(); ++e)
       {
         const unsigned int needed =
-          material_of_id[mesh_.material_ids[e]]->law->n_fibre_families();
+          material_of_id[this->mesh().material_ids[e]]->law->n_fibre_families();
         for (unsigned int f = 0; f < needed; ++f)
-          AssertThrow(std::abs(mesh_.fibres[f][e].norm() - 1) < 1e-6,
-                      base::UserError(prefix + "the " + mesh_.describe_element(e) +
+          AssertThrow(std::abs(this->mesh().fibres[f][e].norm() - 1) < 1e-6,
+                      base::UserError(prefix + "the " + this->mesh().describe_element(e) +
                                       " has no fibre direction, which the law of its "
                                       "material needs."));
       }
@@ -310,18 +353,17 @@ namespace mitre::structure
 
 
   template <int dim>
-  void Body<dim>::setup(const std::vector<unsigned int> &owners)
+  void FiniteElementBody<dim>::reinit()
   {
-    numbering_ = NodeNumbering(owners, numbering_.communicator);
-    elements_ =
-      ElementSet<dim>(mesh_, numbering_, find_elements_of_owned_nodes(mesh_, numbering_));
-    cache.reinit(mesh_, elements_, reference_element_);
-    mass_matrix_.reinit(mesh_, elements_, reference_element_);
+    const Mesh<dim> &mesh           = this->mesh();
+    const ElementSet<dim> &elements = this->elements();
+    cache.reinit(mesh, elements, reference_element_);
+    mass_matrix_.reinit(mesh, elements, reference_element_);
 
     ranges.clear();
-    for (unsigned int i = 0; i < elements_.n_elements() && !parameters.rigid; ++i)
+    for (unsigned int i = 0; i < elements.n_elements() && !parameters.rigid; ++i)
       {
-        const unsigned int id = mesh_.material_ids[elements_.element(i)];
+        const unsigned int id = mesh.material_ids[elements.element(i)];
         unsigned int material = 0;
         while (std::find(parameters.materials[material].ids.begin(),
                          parameters.materials[material].ids.end(),
@@ -331,10 +373,27 @@ namespace mitre::structure
           ranges.push_back({i, i, material});
         ranges.back().end = i + 1;
       }
+  }
 
-    for (const NamedConstraint<dim> &c : parameters.constraints)
+
+  template <int dim>
+  ElementSet<dim> Body<dim>::find_elements() const
+  {
+    return ElementSet<dim>(
+      mesh_, numbering_, find_elements_of_owned_nodes(mesh_, numbering_));
+  }
+
+
+  template <int dim>
+  void Body<dim>::setup(const std::vector<unsigned int> &owners)
+  {
+    numbering_ = NodeNumbering(owners, numbering_.communicator);
+    elements_  = find_elements();
+    reinit();
+
+    for (const NamedConstraint<dim> &c : constraints_)
       c.constraint->reinit(mesh_, elements_);
-    for (const NamedLoad<dim> &l : parameters.loads)
+    for (const NamedLoad<dim> &l : loads_)
       l.load->reinit(mesh_, elements_);
 
     ghosted_positions.reinit(elements_.partitioner());
@@ -407,7 +466,7 @@ namespace mitre::structure
   template <int dim>
   void Body<dim>::set_to_held_positions(const double t, VectorType &X) const
   {
-    for (const NamedConstraint<dim> &c : parameters.constraints)
+    for (const NamedConstraint<dim> &c : constraints_)
       c.constraint->set_targets(t, X);
   }
 
@@ -460,7 +519,7 @@ namespace mitre::structure
 
   template <int dim>
   std::vector<MaterialRange<dim>>
-  Body<dim>::material_ranges(const double t, const unsigned int only) const
+  FiniteElementBody<dim>::material_ranges(const double t, const unsigned int only) const
   {
     std::vector<MaterialRange<dim>> result;
     for (const Range &range : ranges)
@@ -483,58 +542,89 @@ namespace mitre::structure
 
 
   template <int dim>
-  void Body<dim>::compute_elastic_force(const VectorType &X,
-                                        const double t,
-                                        VectorType &G,
-                                        const unsigned int material) const
+  void FiniteElementBody<dim>::compute_elastic_force(const VectorType &X,
+                                                     const double t,
+                                                     VectorType &G,
+                                                     const unsigned int material) const
   {
     const double *positions = import_positions(X);
 
     std::fill(local_forces.begin(), local_forces.end(), 0.);
     unsigned int inverted = dealii::numbers::invalid_unsigned_int;
     for (const MaterialRange<dim> &range : material_ranges(t, material))
-      inverted = std::min(inverted,
-                          structure::compute_elastic_force(
-                            cache, elements_, range, t, positions, local_forces.data()));
+      inverted =
+        std::min(inverted,
+                 structure::compute_elastic_force(
+                   cache, this->elements(), range, t, positions, local_forces.data()));
 
     // All ranks stop if one does.
     std::string message;
     if (inverted != dealii::numbers::invalid_unsigned_int)
       {
         dealii::Point<dim> centroid;
-        for (unsigned int a = 0; a < mesh_.nodes_per_element; ++a)
+        for (unsigned int a = 0; a < this->mesh().nodes_per_element; ++a)
           for (unsigned int c = 0; c < dim; ++c)
-            centroid[c] +=
-              positions[elements_.nodes(inverted)[a] * dim + c] / mesh_.nodes_per_element;
+            centroid[c] += positions[this->elements().nodes(inverted)[a] * dim + c] /
+                           this->mesh().nodes_per_element;
         std::ostringstream text;
-        text << "Part " << name() << ": the "
-             << mesh_.describe_element(elements_.element(inverted))
+        text << "Part " << this->name() << ": the "
+             << this->mesh().describe_element(this->elements().element(inverted))
              << " has been turned inside out (det F <= 0) at time " << t
              << " s; its centroid is at " << to_string(centroid)
              << ". A smaller time step, a larger bulk modulus or a finer mesh there may "
                 "help.";
         message = text.str();
       }
-    if (dealii::Utilities::MPI::logical_or(!message.empty(), communicator()))
+    if (dealii::Utilities::MPI::logical_or(!message.empty(), this->communicator()))
       for (const std::string &text :
-           dealii::Utilities::MPI::all_gather(communicator(), message))
+           dealii::Utilities::MPI::all_gather(this->communicator(), message))
         AssertThrow(text.empty(), base::UserError(text));
 
     std::copy(local_forces.begin(),
-              local_forces.begin() + elements_.n_owned_nodes() * dim,
+              local_forces.begin() + this->elements().n_owned_nodes() * dim,
               G.begin());
+  }
+
+
+  template <int dim>
+  std::string FiniteElementBody<dim>::description() const
+  {
+    return std::to_string(this->mesh().n_elements()) + " elements, " +
+           std::to_string(this->mesh().nodes.size()) + " nodes (" + this->mesh().source +
+           ")";
+  }
+
+
+  template <int dim>
+  std::vector<std::string> FiniteElementBody<dim>::elastic_force_names() const
+  {
+    std::vector<std::string> names;
+    for (const Material<dim> &material : parameters.materials)
+      names.push_back("material " + material.name);
+    return names;
+  }
+
+
+  template <int dim>
+  std::vector<std::string> Body<dim>::external_force_names() const
+  {
+    std::vector<std::string> names;
+    for (const NamedConstraint<dim> &c : constraints_)
+      names.push_back("constraint " + c.name);
+    for (const NamedLoad<dim> &l : loads_)
+      names.push_back("load " + l.name);
+    return names;
   }
 
 
   template <int dim>
   bool Body<dim>::has_external_forces() const
   {
-    return !parameters.loads.empty() ||
-           std::any_of(parameters.constraints.begin(),
-                       parameters.constraints.end(),
-                       [](const NamedConstraint<dim> &c) {
-                         return c.constraint->has_nodal_forces();
-                       });
+    return !loads_.empty() || std::any_of(constraints_.begin(),
+                                          constraints_.end(),
+                                          [](const NamedConstraint<dim> &c) {
+                                            return c.constraint->has_nodal_forces();
+                                          });
   }
 
 
@@ -556,10 +646,10 @@ namespace mitre::structure
       return which == dealii::numbers::invalid_unsigned_int || which == number;
     };
     unsigned int number = 0;
-    for (const NamedConstraint<dim> &c : parameters.constraints)
+    for (const NamedConstraint<dim> &c : constraints_)
       if (wanted(number++))
         c.constraint->add_forces(state, local_forces.data());
-    for (const NamedLoad<dim> &l : parameters.loads)
+    for (const NamedLoad<dim> &l : loads_)
       if (wanted(number++))
         l.load->add_forces(state, local_forces.data());
     std::copy(local_forces.begin(),
@@ -575,7 +665,7 @@ namespace mitre::structure
   {
     VectorType v;
     initialize_vector(v);
-    for (const NamedConstraint<dim> &c : parameters.constraints)
+    for (const NamedConstraint<dim> &c : constraints_)
       c.constraint->add_force_density(X, U, t, v);
     dealii::Tensor<1, dim> total = compute_total(v);
 
@@ -601,13 +691,13 @@ namespace mitre::structure
       }
     project(elastic_density, elastic_force);
     std::copy(elastic_density.begin(), elastic_density.end(), F.begin());
-    for (const NamedConstraint<dim> &c : parameters.constraints)
+    for (const NamedConstraint<dim> &c : constraints_)
       c.constraint->add_force_density(X, U, t, F);
   }
 
 
   template <int dim>
-  unsigned int Body<dim>::project(VectorType &x, const VectorType &b) const
+  unsigned int FiniteElementBody<dim>::project(VectorType &x, const VectorType &b) const
   {
     if (parameters.consistent_mass)
       try
@@ -616,10 +706,10 @@ namespace mitre::structure
         }
       catch (const base::UserError &error)
         {
-          throw base::UserError("Part " + name() + ": " + error.what());
+          throw base::UserError("Part " + this->name() + ": " + error.what());
         }
 
-    for (unsigned int i = 0; i < elements_.n_owned_nodes(); ++i)
+    for (unsigned int i = 0; i < this->elements().n_owned_nodes(); ++i)
       for (unsigned int c = 0; c < dim; ++c)
         x.local_element(i * dim + c) =
           b.local_element(i * dim + c) / mass_matrix_.lumped()[i];
@@ -630,16 +720,17 @@ namespace mitre::structure
   template <int dim>
   dealii::Tensor<1, dim> Body<dim>::compute_total(const VectorType &F) const
   {
+    const std::vector<double> &weights = node_weights();
     dealii::Tensor<1, dim> total;
     for (unsigned int i = 0; i < elements_.n_owned_nodes(); ++i)
       for (unsigned int c = 0; c < dim; ++c)
-        total[c] += mass_matrix_.lumped()[i] * F.local_element(i * dim + c);
+        total[c] += weights[i] * F.local_element(i * dim + c);
     return dealii::Utilities::MPI::sum(total, communicator());
   }
 
 
   template <int dim>
-  void Body<dim>::for_each_point(
+  void FiniteElementBody<dim>::for_each_point(
     const VectorType &X,
     const double t,
     const std::function<void(const unsigned int,
@@ -651,7 +742,7 @@ namespace mitre::structure
     const std::vector<MaterialRange<dim>> materials = material_ranges(t);
     for (unsigned int r = 0; r < ranges.size(); ++r)
       for (unsigned int i = ranges[r].begin; i < ranges[r].end; ++i)
-        if (elements_.nodes(i)[0] < elements_.n_owned_nodes())
+        if (this->elements().nodes(i)[0] < this->elements().n_owned_nodes())
           {
             const MaterialRange<dim> &range = materials[r];
             const unsigned int n_q          = cache.points_per_element;
@@ -659,7 +750,8 @@ namespace mitre::structure
             std::vector<double> J(n_q), pressures(n_q);
             for (unsigned int q = 0; q < n_q; ++q)
               {
-                F[q] = compute_deformation_gradient(cache, elements_, i, q, positions);
+                F[q] =
+                  compute_deformation_gradient(cache, this->elements(), i, q, positions);
                 J[q] = determinant(F[q]);
               }
             if (range.projected_part != nullptr)
@@ -674,7 +766,7 @@ namespace mitre::structure
                     (pressures[q] - range.projected_part->bulk_kirchhoff_pressure(J[q])) *
                     transpose(invert(F[q]));
                 function(ranges[r].material,
-                         elements_.element(i),
+                         this->elements().element(i),
                          cache.JxW[i * n_q + q],
                          StressState<dim>(F[q], range.time_factor * P, cache.fibres[i]));
               }
@@ -684,16 +776,17 @@ namespace mitre::structure
 
   template <int dim>
   std::vector<std::vector<double>>
-  Body<dim>::compute_element_fields(const std::vector<std::string> &names,
-                                    const VectorType &X,
-                                    const double t) const
+  FiniteElementBody<dim>::compute_element_fields(const std::vector<std::string> &names,
+                                                 const VectorType &X,
+                                                 const double t) const
   {
     std::vector<const StressQuantity<dim> *> quantities;
     std::vector<std::vector<double>> fields;
     for (const std::string &quantity_name : names)
       {
         quantities.push_back(&find_stress_quantity<dim>(quantity_name));
-        fields.emplace_back(mesh_.n_elements() * quantities.back()->n_components, 0.);
+        fields.emplace_back(this->mesh().n_elements() * quantities.back()->n_components,
+                            0.);
       }
 
     unsigned int element = dealii::numbers::invalid_unsigned_int;
@@ -727,20 +820,22 @@ namespace mitre::structure
 
     for (std::vector<double> &field : fields)
       dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(field),
-                                  communicator(),
+                                  this->communicator(),
                                   dealii::ArrayView<double>(field));
     return fields;
   }
 
 
   template <int dim>
-  double Body<dim>::compute_elastic_energy(const VectorType &X, const double t) const
+  double FiniteElementBody<dim>::compute_elastic_energy(const VectorType &X,
+                                                        const double t) const
   {
     const double *positions = import_positions(X);
     double energy           = 0;
     for (const MaterialRange<dim> &range : material_ranges(t))
-      energy += structure::compute_elastic_energy(cache, elements_, range, t, positions);
-    return dealii::Utilities::MPI::sum(energy, communicator());
+      energy +=
+        structure::compute_elastic_energy(cache, this->elements(), range, t, positions);
+    return dealii::Utilities::MPI::sum(energy, this->communicator());
   }
 
 
@@ -749,7 +844,7 @@ namespace mitre::structure
                                                                   const double t) const
   {
     std::vector<double> largest;
-    for (const NamedConstraint<dim> &c : parameters.constraints)
+    for (const NamedConstraint<dim> &c : constraints_)
       largest.push_back(c.constraint->largest_displacement(X, t));
     if (!largest.empty())
       dealii::Utilities::MPI::max(dealii::ArrayView<const double>(largest),
@@ -760,12 +855,13 @@ namespace mitre::structure
 
 
   template <int dim>
-  std::pair<double, double> Body<dim>::compute_volume_ratios(const VectorType &X) const
+  std::pair<double, double>
+  FiniteElementBody<dim>::compute_volume_ratios(const VectorType &X) const
   {
     const double *positions = import_positions(X);
     double smallest         = std::numeric_limits<double>::max();
     double largest          = std::numeric_limits<double>::lowest();
-    for (unsigned int i = 0; i < elements_.n_elements(); ++i)
+    for (unsigned int i = 0; i < this->elements().n_elements(); ++i)
       {
         double volume = 0, reference_volume = 0;
         for (unsigned int q = 0; q < cache.points_per_element; ++q)
@@ -773,18 +869,26 @@ namespace mitre::structure
             const double JxW = cache.JxW[i * cache.points_per_element + q];
             reference_volume += JxW;
             volume += JxW * determinant(compute_deformation_gradient(
-                              cache, elements_, i, q, positions));
+                              cache, this->elements(), i, q, positions));
           }
         smallest = std::min(smallest, volume / reference_volume);
         largest  = std::max(largest, volume / reference_volume);
       }
-    return {dealii::Utilities::MPI::min(smallest, communicator()),
-            dealii::Utilities::MPI::max(largest, communicator())};
+    return {dealii::Utilities::MPI::min(smallest, this->communicator()),
+            dealii::Utilities::MPI::max(largest, this->communicator())};
   }
 
 
   template struct BodyParameters<2>;
   template struct BodyParameters<3>;
+  template void declare_constraints<2>(dealii::ParameterHandler &);
+  template void declare_constraints<3>(dealii::ParameterHandler &);
+  template std::vector<NamedConstraint<2>>
+  parse_constraints<2>(dealii::ParameterHandler &, const std::string &);
+  template std::vector<NamedConstraint<3>>
+  parse_constraints<3>(dealii::ParameterHandler &, const std::string &);
   template class Body<2>;
   template class Body<3>;
+  template class FiniteElementBody<2>;
+  template class FiniteElementBody<3>;
 } // namespace mitre::structure

@@ -13,6 +13,9 @@
 #include <mitre/structure/loads/damping.h>
 #include <mitre/structure/loads/pressure.h>
 #include <mitre/structure/loads/traction.h>
+#include <mitre/structure/spring_laws/exponential.h>
+#include <mitre/structure/spring_laws/linear.h>
+#include <mitre/structure/spring_laws/toe_linear.h>
 
 namespace mitre::structure
 {
@@ -81,6 +84,22 @@ namespace mitre::structure
       loads.template add<Damping<dim>>("damping",
                                        "a drag that is proportional to the velocity");
       return loads;
+    }();
+    return registry;
+  }
+
+
+  const base::PluginRegistry<SpringLaw> &spring_laws()
+  {
+    static const auto registry = [] {
+      base::PluginRegistry<SpringLaw> laws("spring law");
+      laws.add<LinearSpring>("linear", "T = kappa (l - l_0)");
+      laws.add<ExponentialSpring>("exponential",
+                                  "T = kappa l_0 / b (exp(b (l/l_0 - 1)) - 1)");
+      laws.add<ToeLinearSpring>("toe-linear",
+                                "collagen: quadratic in the strain up to a transition "
+                                "strain, linear beyond, none in compression");
+      return laws;
     }();
     return registry;
   }

@@ -31,8 +31,8 @@ namespace mitre::structure
   template <int dim>
   std::string Mesh<dim>::describe_element(const unsigned int e) const
   {
-    return "element " + std::to_string(element_tags.empty() ? e : element_tags[e]) +
-           " of " + source;
+    return (shape == ElementShape::segment ? "segment " : "element ") +
+           std::to_string(element_tags.empty() ? e : element_tags[e]) + " of " + source;
   }
 
 

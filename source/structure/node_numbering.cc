@@ -30,7 +30,8 @@ namespace mitre::structure
   template <int dim>
   ElementSet<dim>::ElementSet(const Mesh<dim> &mesh,
                               const NodeNumbering &numbering,
-                              std::vector<unsigned int> elements)
+                              std::vector<unsigned int> elements,
+                              const std::vector<unsigned int> &other_nodes)
     : nodes_per_element(mesh.nodes_per_element)
     , elements_(std::move(elements))
   {
@@ -38,7 +39,12 @@ namespace mitre::structure
     owned_nodes = end - begin;
 
     // Step 1: numbers of the ghost nodes.
-    std::vector<unsigned int> ghosts;
+    for (const unsigned int node : other_nodes)
+      {
+        const unsigned int number = numbering.number_of[node];
+        if (number < begin || number >= end)
+          ghosts.push_back(number);
+      }
     element_nodes.resize(elements_.size() * nodes_per_element);
     for (unsigned int i = 0; i < elements_.size(); ++i)
       for (unsigned int a = 0; a < nodes_per_element; ++a)
@@ -80,6 +86,20 @@ namespace mitre::structure
     ghost_entries.compress();
     partitioner_ = std::make_shared<const dealii::Utilities::MPI::Partitioner>(
       owned_entries, ghost_entries, numbering.communicator);
+  }
+
+
+  template <int dim>
+  unsigned int ElementSet<dim>::local_node(const NodeNumbering &numbering,
+                                           const unsigned int node) const
+  {
+    const unsigned int number = numbering.number_of[node];
+    const unsigned int begin  = numbering.begin_owned();
+    if (number >= begin && number < numbering.end_owned())
+      return number - begin;
+    const auto ghost = std::lower_bound(ghosts.begin(), ghosts.end(), number);
+    Assert(ghost != ghosts.end() && *ghost == number, dealii::ExcInternalError());
+    return owned_nodes + (ghost - ghosts.begin());
   }
 
 

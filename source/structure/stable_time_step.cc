@@ -37,11 +37,11 @@ namespace mitre::structure
           body.initialize_vector(*vector);
       }
 
-      /// Nodal forces [dyn] of one material.
-      void apply_material(const unsigned int material, const VectorType &v, VectorType &G)
+      /// Nodal elastic forces [dyn], or one of them.
+      void apply_elastic(const unsigned int which, const VectorType &v, VectorType &G)
       {
         difference(v, G, [&](VectorType &result) {
-          body.compute_elastic_force(positions, t, result, material);
+          body.compute_elastic_force(positions, t, result, which);
         });
       }
 
@@ -73,7 +73,7 @@ namespace mitre::structure
         apply_external(v, G);
         if (to_displacement)
           {
-            apply_material(dealii::numbers::invalid_unsigned_int, v, density);
+            apply_elastic(dealii::numbers::invalid_unsigned_int, v, density);
             G += density;
           }
         F = 0;
@@ -115,8 +115,10 @@ namespace mitre::structure
     /// The largest eigenvalue by power iteration from a fixed irregular vector, and its
     /// mode @p v.
     template <int dim>
-    double
-    find_largest_eigenvalue(const Body<dim> &body, Response<dim> &response, VectorType &v)
+    double find_largest_eigenvalue(const Body<dim> &body,
+                                   Response<dim> &response,
+                                   const Mobility &mobility,
+                                   VectorType &v)
     {
       // The same start on any number of ranks, in which all modes take part.
       std::vector<double> start(body.mesh().nodes.size() * dim);
@@ -126,12 +128,19 @@ namespace mitre::structure
       body.from_mesh_order(start, v);
       v /= v.l2_norm();
 
-      VectorType w;
+      VectorType w, density;
       body.initialize_vector(w);
+      body.initialize_vector(density);
       double eigenvalue = 0;
       for (unsigned int iteration = 0; iteration < 100; ++iteration)
         {
-          response.apply(v, w);
+          if (mobility)
+            {
+              response.apply(v, density);
+              mobility(density, w);
+            }
+          else
+            response.apply(v, w);
           const double norm = w.l2_norm();
           if (norm == 0)
             return 0;
@@ -166,16 +175,16 @@ namespace mitre::structure
       };
 
       if (to_displacement)
-        for (unsigned int m = 0; m < body.materials().size(); ++m)
+        for (unsigned int m = 0; m < body.elastic_force_names().size(); ++m)
           {
-            response.apply_material(m, v, G);
-            compare("material " + body.materials()[m].name, v * G);
+            response.apply_elastic(m, v, G);
+            compare(body.elastic_force_names()[m], v * G);
           }
       for (unsigned int c = 0; c < body.constraints().size(); ++c)
         {
           response.apply_constraint(c, v, G);
           for (unsigned int i = 0; i < G.locally_owned_size(); ++i)
-            G.local_element(i) *= body.mass_matrix().lumped()[i / dim];
+            G.local_element(i) *= body.node_weights()[i / dim];
           double power = v * G;
           response.apply_external(v, G, c);
           power += v * G;
@@ -190,18 +199,23 @@ namespace mitre::structure
     }
 
 
-    /// A thousandth of the shortest distance of two nodes of an element.
+    /// A thousandth of the shortest distance of two nodes of an element (1e-3 cm if there
+    /// are nodes only).
     template <int dim>
     double small_displacement(const Mesh<dim> &mesh)
     {
       double shortest      = std::numeric_limits<double>::max();
       const unsigned int n = mesh.nodes_per_element;
+      const auto &nodes    = mesh.elements;
       for (unsigned int e = 0; e < mesh.n_elements(); ++e)
         for (unsigned int a = 1; a < n; ++a)
-          shortest = std::min(shortest,
-                              mesh.nodes[mesh.elements[e * n + a]].distance(
-                                mesh.nodes[mesh.elements[e * n + a - 1]]));
-      return 1e-3 * shortest;
+          {
+            const double distance =
+              mesh.nodes[nodes[e * n + a]].distance(mesh.nodes[nodes[e * n + a - 1]]);
+            if (distance > 0)
+              shortest = std::min(shortest, distance);
+          }
+      return 1e-3 * std::min(shortest, 1.);
     }
   } // namespace
 
@@ -210,8 +224,11 @@ namespace mitre::structure
   StableTimeStep estimate_stable_time_step(const Body<dim> &body,
                                            const VectorType &X,
                                            const double t,
-                                           const double density)
+                                           const double density,
+                                           const Mobility &mobility)
   {
+    AssertThrow(mobility || body.mesh().shape != ElementShape::segment,
+                dealii::ExcMessage("Fibres have no mass of their own."));
     StableTimeStep estimate;
     estimate.part = body.name();
 
@@ -219,9 +236,11 @@ namespace mitre::structure
     Response<dim> stiffness(body, X, t, true, small_displacement(body.mesh()));
     Response<dim> damping(body, X, t, false, 1.);
     VectorType mode, damped_mode;
-    const double square   = find_largest_eigenvalue(body, stiffness, mode) / density;
-    estimate.frequency    = std::sqrt(square);
-    estimate.damping_rate = find_largest_eigenvalue(body, damping, damped_mode) / density;
+    const double square =
+      find_largest_eigenvalue(body, stiffness, mobility, mode) / density;
+    estimate.frequency = std::sqrt(square);
+    estimate.damping_rate =
+      find_largest_eigenvalue(body, damping, mobility, damped_mode) / density;
 
     // Step 2: both together, written so that either may be zero.
     const double c     = estimate.damping_rate;
@@ -253,9 +272,11 @@ namespace mitre::structure
   template StableTimeStep estimate_stable_time_step(const Body<2> &,
                                                     const VectorType &,
                                                     const double,
-                                                    const double);
+                                                    const double,
+                                                    const Mobility &);
   template StableTimeStep estimate_stable_time_step(const Body<3> &,
                                                     const VectorType &,
                                                     const double,
-                                                    const double);
+                                                    const double,
+                                                    const Mobility &);
 } // namespace mitre::structure

@@ -27,7 +27,7 @@ namespace coupling_tests
   template <int dim>
   struct BodyInBox
   {
-    std::unique_ptr<structure::Body<dim>> body;
+    std::unique_ptr<structure::FiniteElementBody<dim>> body;
     VectorType X;
 
     BodyInBox(const ElementShape shape,
@@ -45,7 +45,8 @@ namespace coupling_tests
       if (bent)
         for (Point<dim> &s : mesh.nodes)
           s = structure_tests::deform(s);
-      body = std::make_unique<structure::Body<dim>>(parameters, mesh, MPI_COMM_WORLD);
+      body = std::make_unique<structure::FiniteElementBody<dim>>(
+        parameters, mesh, MPI_COMM_WORLD);
       body->initialize_vector(X);
       std::vector<double> positions;
       for (const Point<dim> &s : body->mesh().nodes)
@@ -107,7 +108,7 @@ namespace coupling_tests
 
   /// Irregular nodal values.
   template <int dim>
-  VectorType make_nodal_field(const structure::Body<dim> &body)
+  VectorType make_nodal_field(const structure::FiniteElementBody<dim> &body)
   {
     std::vector<double> values;
     for (const Point<dim> &s : body.mesh().nodes)

@@ -125,7 +125,7 @@ private:
 
 /// The shell of quadrilaterals, a material for each layer. The first nodes of the mesh
 /// are those of the inner circle.
-structure::Body<2>
+structure::FiniteElementBody<2>
 make_shell(const unsigned int degree,
            const unsigned int n_around,
            const unsigned int n_layers,
@@ -172,7 +172,7 @@ make_shell(const unsigned int degree,
           mesh.fibres[0].push_back(Point<2>(-std::sin(angle), std::cos(angle)));
         }
     }
-  return structure::Body<2>(parameters, mesh, MPI_COMM_WORLD);
+  return structure::FiniteElementBody<2>(parameters, mesh, MPI_COMM_WORLD);
 }
 
 double
@@ -188,7 +188,9 @@ exact_pressure(const Point<2> &x, const bool isotropic)
 
 /// Area of the polygon of the first @p n nodes.
 double
-enclosed_area(const structure::Body<2> &body, const VectorType &X, const unsigned int n)
+enclosed_area(const structure::FiniteElementBody<2> &body,
+              const VectorType &X,
+              const unsigned int n)
 {
   const std::vector<double> x = body.to_mesh_order(X);
   double area                 = 0;
@@ -287,7 +289,7 @@ run(const unsigned int n,
                                   ? std::lround(1.5 / (element_size * h))
                                   : std::lround(2 * PI * R / (element_size * h)),
                      n_layers = std::lround(w / (element_size * h));
-  structure::Body<2> shell =
+  structure::FiniteElementBody<2> shell =
     make_shell(degree, n_around, n_layers, isotropic, !option.empty());
   VectorType X, X_half, U, F, force, middle;
   shell.initialize_vector(X);

@@ -16,7 +16,7 @@ using namespace instrument_tests;
 
 template <int dim>
 structure::VectorType
-nodal_field(const structure::Body<dim> &body,
+nodal_field(const structure::FiniteElementBody<dim> &body,
             const std::function<double(const Point<dim> &, unsigned int)> &value)
 {
   std::vector<double> values;
@@ -46,7 +46,7 @@ test(const structure::ElementShape shape)
        {id},
        structure_tests::make_law<dim>("neo-Hookean", "set C1 = 2\n"),
        base::TimeExpression("1", "factor")});
-  structure::Body<dim> body(
+  structure::FiniteElementBody<dim> body(
     parameters, structure_tests::make_box<dim>(shape, 3), MPI_COMM_WORLD);
 
   const auto position = [](const Point<dim> &s) {

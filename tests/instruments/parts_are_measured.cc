@@ -16,7 +16,7 @@ using namespace instrument_tests;
 
 template <int dim>
 structure::VectorType
-deformed(const structure::Body<dim> &body)
+deformed(const structure::FiniteElementBody<dim> &body)
 {
   std::vector<double> values;
   for (const Point<dim> &s : body.mesh().nodes)
@@ -43,7 +43,7 @@ test()
   flow.fluid->set_velocity(
     [&](const Point<dim> &x, const unsigned int c) { return stream(x, c, 0.); }, 0.);
 
-  std::vector<std::unique_ptr<structure::Body<dim>>> bodies;
+  std::vector<std::unique_ptr<structure::FiniteElementBody<dim>>> bodies;
   std::vector<structure::VectorType> X;
   for (const auto shape :
        {structure::ElementShape::simplex, structure::ElementShape::hypercube})
@@ -65,7 +65,7 @@ test()
             {"hold", structure::constraints<dim>().create("tether")});
           parameters.constraints[0].constraint->parse_parameters(prm, "hold");
         }
-      bodies.push_back(std::make_unique<structure::Body<dim>>(
+      bodies.push_back(std::make_unique<structure::FiniteElementBody<dim>>(
         parameters, structure_tests::make_box<dim>(shape, 4), MPI_COMM_WORLD));
       X.push_back(deformed(*bodies.back()));
     }

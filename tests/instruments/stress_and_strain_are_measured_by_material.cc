@@ -64,7 +64,7 @@ check()
        {id},
        make_law<dim>("neo-Hookean", id == 1 ? "set C1 = 3" : "set C1 = 6"),
        mitre::base::TimeExpression("1", "factor")});
-  const Body<dim> body(parameters, mesh, MPI_COMM_WORLD);
+  const FiniteElementBody<dim> body(parameters, mesh, MPI_COMM_WORLD);
   std::vector<double> positions;
   for (const auto &s : mesh.nodes)
     for (unsigned int d = 0; d < dim; ++d)

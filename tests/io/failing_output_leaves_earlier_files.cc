@@ -60,7 +60,7 @@ main(int argc, char **argv)
 
   const Case<2> flow;
   structure::BodyParameters<2> parameters = structure_tests::make_parameters<2>();
-  const structure::Body<2> body(
+  const structure::FiniteElementBody<2> body(
     parameters,
     structure_tests::make_box<2>(structure::ElementShape::simplex, 20),
     MPI_COMM_WORLD);
@@ -107,7 +107,7 @@ main(int argc, char **argv)
       "run/output/fluid.pvd/s.csv", {"time [s]"}, MPI_COMM_WORLD);
   });
   parameters.name = "fluid";
-  const structure::Body<2> fluid(
+  const structure::FiniteElementBody<2> fluid(
     parameters,
     structure_tests::make_box<2>(structure::ElementShape::simplex, 4),
     MPI_COMM_WORLD);

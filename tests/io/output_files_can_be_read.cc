@@ -168,7 +168,7 @@ test()
        {structure::ElementShape::simplex, structure::ElementShape::hypercube})
     {
       parameters.name = structure_tests::shape_name(dim, shape);
-      const structure::Body<dim> body(
+      const structure::FiniteElementBody<dim> body(
         parameters, structure_tests::make_box<dim>(shape, 4, 0.), MPI_COMM_WORLD);
       std::vector<double> values;
       for (const Point<dim> &s : body.mesh().nodes)

@@ -109,6 +109,17 @@ table = "time [s],atrium [mmHg]\n0,5\n0.005,10\n0.01,5\n"
 use_table = ("    set Pressure = 0\n",
              "    set Table file   = table.csv\n    set Table column = atrium\n")
 
+def strand(text="", **files):
+    """A second part of fibres; the files of a whole one but for those that are given."""
+    texts = dict(vertex="3\n0.3 0.3 0.3\n0.3 0.33 0.3\n0.3 0.36 0.3\n",
+                 spring="2\n0 1 10 0.03\n1 2 10 0.03\n", beam=None, target=None)
+    texts.update(files)
+    part = "    set Kind = fibres\n    set Vertex file = strand.vertex\n" + text
+    return dict(change=[("Parts = cube\n",
+                         "Parts = cube, strand\n  subsection Part strand\n%s  end\n" % part)],
+                files={"strand." + ending: content for ending, content in texts.items()})
+
+
 # Where it is, the mistake, changes (pairs of texts), files, what the message must contain, in
 # this order. "arguments" replaces what the program is called with.
 errors = [
@@ -312,6 +323,67 @@ errors = [
         ("a mesh in mm", dict(files={"cube.msh": mesh(points=scaled(10))}),
          ["Part cube: a node of", "outside of the fluid box", "both in cm?"]),
     ]),
+    ("Fibre files", [
+        ("a fibre part without a vertex file",
+         dict(change=[("Parts = cube\n", "Parts = cube, strand\n  subsection Part strand\n"
+                       "    set Kind = fibres\n  end\n")]),
+         ["Part strand: the parameter \"Vertex file\" is not set"]),
+        ("a mesh in the place of a vertex file",
+         dict(change=[("Parts = cube\n", "Parts = cube, strand\n  subsection Part strand\n"
+                       "    set Kind = fibres\n    set Vertex file = cube.msh\n  end\n")]),
+         ["Fibre file", "cube.msh: expected a name that ends with .vertex"]),
+        ("a parameter of finite elements in a part of fibres",
+         strand("    set Mesh file = cube.msh\n"),
+         ["there is no parameter 'Mesh file' in the subsection Structure/Part strand"]),
+        ("fewer nodes than announced", strand(vertex="3\n0.3 0.3 0.3\n"),
+         ["Fibre file", "strand.vertex, line 3: the file ends after 1 nodes",
+          "announces 3"]),
+        ("more nodes than announced",
+         strand(vertex="2\n0.3 0.3 0.3\n0.3 0.33 0.3\n0.3 0.36 0.3\n"),
+         ["strand.vertex, line 4: expected the end of the file after 2 nodes"]),
+        ("a node without its third coordinate", strand(vertex="1\n0.3 0.3 # flat\n"),
+         ["strand.vertex, line 2: expected the coordinate z, found the end of the line"]),
+        ("fibres outside of the box", strand(vertex="3\n0.3 0.3 0.3\n0.3 1.3 0.3\n0 0 0\n"),
+         ["Part strand: a node of", "strand.vertex is at (0.3 1.3 0.3) cm, outside of the fluid"]),
+        ("a spring to a node that is not there", strand(spring="1\n0 3 10 0.03\n"),
+         ["strand.spring, line 2: the node 3 is not there; there are 3, counted from 0"]),
+        ("a spring of negative stiffness", strand(spring="2\n0 1 10\n1 2 -10\n"),
+         ["strand.spring, line 3: the stiffness is -10; it must not be negative"]),
+        ("a spring whose law is not there", strand(spring="1\n0 1 10 0.03 2\n"),
+         ["Part strand:", "strand.spring, line 2: the spring has the force function 2",
+          "no law in \"Spring laws\"", "expected one of: 0"]),
+        ("a spring without a rest length that its law needs",
+         strand("    set Spring laws = skin\n    subsection Spring law skin\n"
+                "      set Type = exponential\n    end\n", spring="1\n0 1 10 0\n"),
+         ["strand.spring, line 2: the spring has the rest length 0", "the law 'skin'",
+          "must be positive"]),
+        ("two laws for the same springs",
+         strand("    set Spring laws = skin, bone\n"),
+         ["Part strand: the spring laws 'skin' and 'bone' have the same \"Force function\", 0"]),
+        ("a misspelt spring law",
+         strand("    set Spring laws = skin\n    subsection Spring law skin\n"
+                "      set Type = exponental\n    end\n"),
+         ["'Type'", "exponental", "Did you mean 'exponential'?"]),
+        ("a beam that has a node twice", strand(beam="1\n0 1 0 10\n"),
+         ["strand.beam, line 2: the nodes 0, 1, 0 of the beam are not three different ones"]),
+        ("half of a beam's curvature", strand(beam="1\n0 1 2 10 0.1\n"),
+         ["strand.beam, line 2: expected the component y of the curvature"]),
+        ("a node that is a target point twice", strand(target="2\n1 10\n1 10\n"),
+         ["strand.target, line 3: the node 1 is already a target point"]),
+        ("fibres without any forces", strand(spring=None),
+         ["Part strand: beside", "strand.vertex there are neither springs nor beams nor target"]),
+        ("a tether on the volume of fibres",
+         strand("    set Constraints = hold\n"),
+         ["Part strand, constraint hold: it acts on a volume or a surface",
+          "expected 'Acts on = points'"]),
+        ("an instrument that needs finite elements, on fibres",
+         dict(strand(), change=strand()["change"] +
+              [("= flow meter", "= part volume\n    set Part = strand"),
+               ("    set Position = 0.5\n    set Centre   = 0.5, 0.5\n"
+                "    set Radius   = 0.3\n", ""), ("    set Axis     = x\n", "")]),
+         ["Instrument flow: the part strand consists of fibres",
+          "expected one of finite elements"]),
+    ]),
     ("Instruments and output", [
         ("an unknown instrument", dict(change=[("= flow meter", "= flowmeter")]),
          ["'Type'", "'flowmeter'", "Did you mean 'flow meter'?"]),
@@ -339,6 +411,12 @@ errors = [
          dict(change=[("Stiffness = 100", "Damping = 1e6")], arguments=["--validate", "run.prm"]),
          ["run.prm cannot work", "\"Time / Time step\" is 0.001",
           "damping of the constraints (part cube about", "a smaller \"Damping\""]),
+        ("springs too stiff for the time step, found by `--validate`",
+         dict(strand(spring="2\n0 1 1e6 0.03\n1 2 1e6 0.03\n"),
+              arguments=["--validate", "run.prm"]),
+         ["run.prm cannot work", "\"Time / Time step\" is 0.001",
+          "the fibre part strand (springs) allows about",
+          "a smaller stiffness of the part"]),
         ("a flow too fast for the time step",
          dict(change=[("velocity x = 0", "velocity x = 400*cos(2*pi*y)")]),
          ["At t = 0.001 s the flow passes", "cells in a time step of 0.001 s",
@@ -396,6 +474,9 @@ warnings = [
     end
   end"""), ("set Materials", "set Grid level = 1\n    set Materials")]),
      ["Part cube: the kernels of", "reach cells of two levels", "where levels 1 and 2 meet"]),
+    ("fibres with wide gaps between their nodes",
+     strand(vertex="3\n0.3 0.3 0.3\n0.3 0.5 0.3\n0.3 0.7 0.3\n"),
+     ["Part strand: the segment 0 of", "grid cells long; fluid may pass between its nodes"]),
     ("a tether a little too stiff for the time step",
      dict(change=[("Stiffness = 100", "Stiffness = 1e7")]),
      ["\"Time / Time step\" is 0.001", "stiffness of the constraints", "allows about 0.000"]),
@@ -459,6 +540,7 @@ os.chdir(folder)
 
 def run(change=(), files=None, arguments=("run.prm",)):
     contents = {"run.prm": base, "cube.msh": mesh(), "table.csv": None}
+    contents.update({"strand." + ending: None for ending in ("vertex", "spring", "beam", "target")})
     for old, new in change:
         assert old in contents["run.prm"], old
         contents["run.prm"] = contents["run.prm"].replace(old, new, 1)

@@ -27,7 +27,7 @@ check(const Function &function)
 void
 make(const BodyParameters<3> &parameters, const Mesh<3> &mesh)
 {
-  const Body<3> body(parameters, mesh, MPI_COMM_SELF);
+  const FiniteElementBody<3> body(parameters, mesh, MPI_COMM_SELF);
 }
 
 int
@@ -69,7 +69,7 @@ main(int argc, char **argv)
     make(parameters, m);
   });
 
-  Body<3> body(parameters, mesh, MPI_COMM_SELF);
+  FiniteElementBody<3> body(parameters, mesh, MPI_COMM_SELF);
   VectorType X, G;
   body.initialize_vector(X);
   body.initialize_vector(G);

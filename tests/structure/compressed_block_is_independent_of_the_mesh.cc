@@ -42,7 +42,7 @@ compress(const ElementShape shape,
                           "pressure",
                           "set Pressure = 200 * min(1, t)\nset Surface = reference\n"
                           "set Region = y > 9.99 && x > 5 && x < 15\n")});
-  const Body<2> body(parameters, mesh, MPI_COMM_SELF);
+  const FiniteElementBody<2> body(parameters, mesh, MPI_COMM_SELF);
 
   // Explicit motion with equal shares of the elements' volumes as masses, and a step from
   // the highest frequency.

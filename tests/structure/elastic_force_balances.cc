@@ -14,7 +14,7 @@ void
 check(const ElementShape shape, const unsigned int degree)
 {
   Mesh<dim> mesh = make_box_of_degree<dim>(shape, degree, degree == 1 ? 4 : 2);
-  const Body<dim> body(make_parameters<dim>(), mesh, MPI_COMM_SELF);
+  const FiniteElementBody<dim> body(make_parameters<dim>(), mesh, MPI_COMM_SELF);
 
   VectorType X, G, Y;
   body.initialize_vector(X);
@@ -67,7 +67,7 @@ check(const ElementShape shape, const unsigned int degree)
                                               "set a_f = 5\n"
                                               "set b_f = 2\n"
                                               "set Bulk modulus = 40\n");
-  const Body<dim> patch(parameters, mesh, MPI_COMM_SELF);
+  const FiniteElementBody<dim> patch(parameters, mesh, MPI_COMM_SELF);
   for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
     for (unsigned int c = 0; c < dim; ++c)
       X[i * dim + c] = 1.1 * mesh.nodes[i][c] + 0.2 * mesh.nodes[i][(c + 1) % dim] + 0.5;

@@ -17,7 +17,7 @@ constexpr double density = 1.1;
 
 template <int dim>
 double
-exact_frequency(const Body<dim> &body, const VectorType &X)
+exact_frequency(const FiniteElementBody<dim> &body, const VectorType &X)
 {
   const unsigned int n = X.size();
   VectorType Y         = X, plus, minus, e, column;
@@ -51,7 +51,7 @@ exact_frequency(const Body<dim> &body, const VectorType &X)
 
 template <int dim>
 bool
-stays_small(Body<dim> &body, const VectorType &X, const double dt)
+stays_small(FiniteElementBody<dim> &body, const VectorType &X, const double dt)
 {
   VectorType Y = X, U, F;
   body.initialize_vector(U);
@@ -84,7 +84,7 @@ check(const std::string &title,
       const double frequency = 0,
       const double rate      = 0)
 {
-  Body<dim> body(
+  FiniteElementBody<dim> body(
     parameters, make_box_of_degree<dim>(shape, degree, dim == 2 ? 3 : 2), MPI_COMM_SELF);
   VectorType X;
   body.initialize_vector(X);

@@ -24,11 +24,12 @@ check(const ElementShape shape)
     BodyParameters<dim> p = parameters;
     p.constraints.push_back({"hold", constraints<dim>().create("tether")});
     p.constraints.back().constraint->parse_parameters(prm, "hold");
-    return std::make_unique<Body<dim>>(p, make_box<dim>(shape, 4), communicator);
+    return std::make_unique<FiniteElementBody<dim>>(
+      p, make_box<dim>(shape, 4), communicator);
   };
   const auto alone = make(MPI_COMM_SELF), together = make(MPI_COMM_WORLD);
 
-  const auto evaluate = [&](Body<dim> &body) {
+  const auto evaluate = [&](FiniteElementBody<dim> &body) {
     VectorType X, U, G, F;
     for (VectorType *v : {&X, &U})
       body.initialize_vector(*v);

@@ -56,13 +56,13 @@ struct Case
     return sum;
   }
 
-  Body<dim> body;
+  FiniteElementBody<dim> body;
   VectorType X, U, G;
 };
 
 template <int dim>
 double
-volume(const Body<dim> &body, const VectorType &X)
+volume(const FiniteElementBody<dim> &body, const VectorType &X)
 {
   Mesh<dim> deformed = body.mesh();
   for (unsigned int i = 0; i < X.size(); ++i)

@@ -13,9 +13,10 @@ check(const ElementShape shape)
 {
   BodyParameters<dim> parameters = make_parameters<dim>();
   parameters.mass_tolerance      = 1e-13;
-  const Body<dim> body(parameters, make_box<dim>(shape, 4), MPI_COMM_WORLD);
+  const FiniteElementBody<dim> body(parameters, make_box<dim>(shape, 4), MPI_COMM_WORLD);
   parameters.consistent_mass = false;
-  const Body<dim> lumped(parameters, make_box<dim>(shape, 4), MPI_COMM_WORLD);
+  const FiniteElementBody<dim> lumped(
+    parameters, make_box<dim>(shape, 4), MPI_COMM_WORLD);
 
   double volume = 0;
   for (const double m : body.mass_matrix().lumped())

@@ -46,7 +46,7 @@ check(const ElementShape shape, const unsigned int degree)
      {1, 2},
      make_law<dim>("neo-Hookean", "set C1 = 3\nset Bulk modulus = 5\n"),
      mitre::base::TimeExpression("1 + t", "factor")});
-  const Body<dim> body(parameters, mesh, MPI_COMM_SELF);
+  const FiniteElementBody<dim> body(parameters, mesh, MPI_COMM_SELF);
   VectorType X;
   body.initialize_vector(X);
 

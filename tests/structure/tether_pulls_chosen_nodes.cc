@@ -19,7 +19,7 @@ check(const std::string &values)
   parameters.constraints[0].constraint->parse_parameters(prm, "Part box, hold");
   try
     {
-      const Body<3> body(
+      const FiniteElementBody<3> body(
         parameters, make_box<3>(ElementShape::simplex, 4), MPI_COMM_SELF);
       VectorType X, U, F;
       for (VectorType *v : {&X, &U, &F})

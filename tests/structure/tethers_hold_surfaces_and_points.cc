@@ -24,7 +24,7 @@ check(const std::string &title, const std::string &values)
         {"hold",
          make_plugin<Constraint<dim>>(
            constraints<dim>(), "tether", "set Stiffness = 30\n" + values)});
-      const Body<dim> body(
+      const FiniteElementBody<dim> body(
         parameters, make_box<dim>(ElementShape::hypercube, 4), MPI_COMM_SELF);
       VectorType X, U;
       for (VectorType *v : {&X, &U})

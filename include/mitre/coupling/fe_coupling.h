@@ -29,19 +29,22 @@ namespace mitre::coupling
     /// Level of the grid about the part; -1: the finest.
     int level = -1;
 
-    static void declare_parameters(dealii::ParameterHandler &prm);
+    /// @param of_fibres whose points are always their nodes
+    static void declare_parameters(dealii::ParameterHandler &prm,
+                                   const bool of_fibres = false);
 
-    void parse_parameters(dealii::ParameterHandler &prm);
+    void parse_parameters(dealii::ParameterHandler &prm, const bool of_fibres = false);
   };
 
 
   /**
-   * Interaction of finite element bodies with the staggered velocity (2.37)-(2.44): the
+   * Interaction of bodies with the staggered velocity (2.37)-(2.44): the
    * force density of a body is evaluated at quadrature points and spread to the faces;
    * the velocity is interpolated to the same points and projected onto the body's shape
    * functions. Parts whose points are their nodes (PointChoice::nodes) take the velocity
    * there, and spread the force density times the row sums of the mass matrix from there:
-   * cheaper, but only tight where the elements are smaller than the grid's cells. Both
+   * cheaper, but only tight where the elements are smaller than the grid's cells. Fibres
+   * do so, too, with the forces on their nodes and weights of 1 (2.8)-(2.13). Both
    * directions use the points of the last update_points(), so that they are adjoint,
    * @f$ (S F, u)_{grid} = (F, R u)_{body} @f$.
    *

@@ -2,6 +2,7 @@
 #define mitre_coupling_part_points_h
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ namespace mitre::coupling
   enum class PointChoice : unsigned char
   {
     quadrature, ///< at quadrature points in its elements, as dense as these are large
-    nodes       ///< at its nodes, with the row sums of the mass matrix as weights
+    nodes       ///< at its nodes, with structure::Body::node_weights()
   };
 
 
@@ -133,7 +134,7 @@ namespace mitre::coupling
 
     const PointRule<dim> &rule(const Run &run)
     {
-      return choice == PointChoice::nodes ? node_rule : rules_.get(run.rule);
+      return choice == PointChoice::nodes ? node_rule : rules_->get(run.rule);
     }
 
     /**
@@ -181,7 +182,7 @@ namespace mitre::coupling
     const structure::Body<dim> &body_;
     const double density;
     const PointChoice choice;
-    PointRules<dim> rules_;
+    std::unique_ptr<PointRules<dim>> rules_; ///< of finite elements
     const PointRule<dim> node_rule;
 
     /// Lines of nodes along which points are counted: the ends, and the node between them
@@ -219,7 +220,7 @@ namespace mitre::coupling
     std::size_t n_points_   = 0;
     double largest_spacing_ = 0;
 
-    /// Row sums of the mass matrix by local node, where nodes are the points.
+    /// Weights by local node, where nodes are the points.
     VectorType node_weights;
 
     /// Number of points that counted elements have on all ranks together, and what went

@@ -53,6 +53,11 @@ namespace mitre::instruments
     /// The part @p name; base::UserError, which names @p instrument, if there is none.
     const ObservedPart<dim> &find_part(const std::string &name,
                                        const std::string &instrument) const;
+
+    /// The body of the part @p name; base::UserError, which names @p instrument, if it is
+    /// not of finite elements.
+    const structure::FiniteElementBody<dim> &
+    find_finite_elements(const std::string &name, const std::string &instrument) const;
   };
 } // namespace mitre::instruments
 

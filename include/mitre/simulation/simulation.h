@@ -21,6 +21,7 @@
 #include <mitre/simulation/refinement.h>
 #include <mitre/simulation/validation.h>
 #include <mitre/structure/body.h>
+#include <mitre/structure/stable_time_step.h>
 
 namespace mitre::simulation
 {
@@ -161,6 +162,9 @@ namespace mitre::simulation
     /// Where the flow is fastest and which node is nearest, for messages: "the flow is
     /// fastest, ...". Collective.
     std::string describe_fastest_flow() const;
+
+    /// The stable step of a part of fibres, whose nodes move with the fluid about them.
+    structure::StableTimeStep estimate_fibre_step(const unsigned int part);
 
     bool run_to_end();
     void start();

@@ -40,8 +40,19 @@ namespace mitre::structure
   };
 
 
+  /// Declare the list "Constraints" of a part and a subsection for each of them.
+  template <int dim>
+  void declare_constraints(dealii::ParameterHandler &prm);
+
+  /// Make the constraints of a part. Throws base::UserError, which names @p part.
+  template <int dim>
+  std::vector<NamedConstraint<dim>> parse_constraints(dealii::ParameterHandler &prm,
+                                                      const std::string &part);
+
+
   /**
-   * What a parameter file says about a part, in <code>subsection Part NAME</code>.
+   * What a parameter file says about a part of finite elements, in <code>subsection Part
+   * NAME</code>.
    */
   template <int dim>
   struct BodyParameters
@@ -70,13 +81,19 @@ namespace mitre::structure
 
 
   /**
-   * A deformable body that a finite element mesh describes: its reference configuration,
-   * materials, constraints and loads, and which rank owns which of its nodes.
+   * A deformable part: its nodes in the reference configuration, which elements or
+   * segments join them, constraints and loads, and which rank owns which of its nodes.
+   * What its elastic forces are, and how nodal forces become the field that is spread to
+   * the fluid, is the business of derived classes: FiniteElementBody and FibreBody.
    *
    * Fields on its nodes (positions X [cm], velocities, force densities) are distributed
    * vectors without ghost entries, made by initialize_vector(), with component c of node
    * number i at dim * i + c. Nodes are numbered so that each rank's are contiguous; the
    * numbering changes in distribute(), which carries the vectors along.
+   *
+   * The force density F times node_weights() is a force: for finite elements F is a
+   * density per reference volume [dyn/cm^dim], for fibres a force [dyn] on each node,
+   * with weights of 1.
    */
   template <int dim>
   class Body
@@ -87,31 +104,20 @@ namespace mitre::structure
     using OwnersOfPoints =
       std::function<std::vector<unsigned int>(const std::vector<dealii::Point<dim>> &)>;
 
-    /**
-     * The nodes are dealt out in equal parts until distribute() is called. Throws
-     * base::UserError if a material id of the mesh has no material or two, a material
-     * has no elements, an element is inverted, a law lacks its fibres, a rigid body has
-     * materials or nodes that nothing holds, a constraint or load has nothing to act on,
-     * or quadratic simplices shall have a lumped mass matrix.
-     */
-    Body(BodyParameters<dim> parameters, Mesh<dim> mesh, const MPI_Comm communicator);
+    virtual ~Body() = default;
 
     Body(const Body &)            = delete;
     Body &operator=(const Body &) = delete;
 
     const std::string &name() const
     {
-      return parameters.name;
+      return name_;
     }
 
+    /// Nodes and elements, or, of fibres, segments.
     const Mesh<dim> &mesh() const
     {
       return mesh_;
-    }
-
-    const ReferenceElement<dim> &reference_element() const
-    {
-      return reference_element_;
     }
 
     const NodeNumbering &numbering() const
@@ -130,37 +136,28 @@ namespace mitre::structure
       return elements_;
     }
 
-    const MassMatrix<dim> &mass_matrix() const
-    {
-      return mass_matrix_;
-    }
-
-    const std::vector<Material<dim>> &materials() const
-    {
-      return parameters.materials;
-    }
-
-    const std::vector<std::string> &element_fields() const
-    {
-      return parameters.element_fields;
-    }
-
     /// Whether the nodes are where set_to_held_positions() says. Such a body has no
     /// materials and no elastic forces.
-    bool is_rigid() const
+    virtual bool is_rigid() const
     {
-      return parameters.rigid;
+      return false;
     }
 
     const std::vector<NamedConstraint<dim>> &constraints() const
     {
-      return parameters.constraints;
+      return constraints_;
     }
 
     const std::vector<NamedLoad<dim>> &loads() const
     {
-      return parameters.loads;
+      return loads_;
     }
+
+    /// What it consists of: "120 elements, 45 nodes (tube.msh)".
+    virtual std::string description() const = 0;
+
+    /// Weight of each owned node in sums over the body: volumes [cm^dim] or 1.
+    virtual const std::vector<double> &node_weights() const = 0;
 
     /**
      * Give each node to the rank that @p owners_of names for its position in @p X and
@@ -206,24 +203,28 @@ namespace mitre::structure
       elastic_density = density;
     }
 
+    /// What the elastic force is the sum of, for messages: "material chordae", "springs".
+    virtual std::vector<std::string> elastic_force_names() const = 0;
+
+    /// The same of the external forces: "constraint annulus", "load drag".
+    std::vector<std::string> external_force_names() const;
+
     /**
-     * Nodal elastic forces @f$G_a = -\int_U P\,\nabla_s\phi_a\,ds@f$ [dyn]. Collective.
-     * Throws base::UserError on all ranks if an element is inverted; it names part,
-     * element, centroid and time.
+     * Nodal elastic forces [dyn]. Collective.
      *
-     * @param material take only the elements of the material with this index
+     * @param which take only the one with this number in elastic_force_names()
      */
-    void compute_elastic_force(
+    virtual void compute_elastic_force(
       const VectorType &X,
       const double t,
       VectorType &G,
-      const unsigned int material = dealii::numbers::invalid_unsigned_int) const;
+      const unsigned int which = dealii::numbers::invalid_unsigned_int) const = 0;
 
     /**
      * Nodal forces of loads, and of constraints as far as these are forces rather than
      * densities [dyn]. Collective.
      *
-     * @param which take only one: constraints are numbered first, then loads
+     * @param which take only the one with this number in external_force_names()
      */
     void compute_external_forces(
       const VectorType &X,
@@ -238,10 +239,10 @@ namespace mitre::structure
                                                         const double t) const;
 
     /**
-     * Nodal values of the Lagrangian force density per reference volume [dyn/cm^dim]:
-     * nodal forces, elastic and external, projected by the mass matrix (2.36), plus the
-     * densities of constraints. The projected part of the previous call serves as start
-     * of the iteration.
+     * Nodal values of the force density: nodal forces, elastic and external, divided by
+     * the mass matrix (2.36) or, of fibres, as they are, plus the densities of
+     * constraints. The projected part of the previous call serves as start of the
+     * iteration.
      */
     void compute_force_density(const VectorType &X,
                                const VectorType &U,
@@ -249,13 +250,135 @@ namespace mitre::structure
                                VectorType &F);
 
     /**
+     * The field @p x whose moments with the shape functions are @p b, from a first guess
+     * in @p x: solves with the mass matrix, or, of fibres, copies. Returns the number of
+     * iterations.
+     */
+    virtual unsigned int project(VectorType &x, const VectorType &b) const = 0;
+
+    /// The sum of a force density times node_weights() [dyn]. Collective.
+    dealii::Tensor<1, dim> compute_total(const VectorType &F) const;
+
+    /// Elastic energy [erg; erg/cm in 2D]. Collective.
+    virtual double compute_elastic_energy(const VectorType &X, const double t) const = 0;
+
+    /// For each constraint, the largest distance of a node from its target [cm].
+    /// Collective.
+    std::vector<double> compute_constraint_displacements(const VectorType &X,
+                                                         const double t) const;
+
+  protected:
+    Body(const std::string &name,
+         Mesh<dim> mesh,
+         std::vector<NamedConstraint<dim>> constraints,
+         std::vector<NamedLoad<dim>> loads,
+         const MPI_Comm communicator);
+
+    /// Deals the nodes out in equal parts; for the end of a constructor. Throws
+    /// base::UserError if a constraint or load has nothing to act on.
+    void deal_out_nodes();
+
+    /// The elements of which this rank owns a node, and the ghost nodes that it needs.
+    virtual ElementSet<dim> find_elements() const;
+
+    /// Make anew what depends on numbering() and elements().
+    virtual void reinit() = 0;
+
+    /// Copy of @p X in which ghost nodes are known too.
+    const double *import_positions(const VectorType &X) const;
+
+    mutable std::vector<double> local_forces;
+
+  private:
+    void setup(const std::vector<unsigned int> &owners);
+
+    /// Whether there is a load, or a constraint that gives nodal forces.
+    bool has_external_forces() const;
+
+    const std::string name_;
+    const Mesh<dim> mesh_;
+    const std::vector<NamedConstraint<dim>> constraints_;
+    const std::vector<NamedLoad<dim>> loads_;
+    NodeNumbering numbering_;
+    ElementSet<dim> elements_;
+
+    mutable VectorType ghosted_positions, ghosted_velocities;
+    VectorType elastic_force, external_force, elastic_density;
+  };
+
+
+  /**
+   * A deformable body that a finite element mesh describes, with its materials.
+   */
+  template <int dim>
+  class FiniteElementBody : public Body<dim>
+  {
+  public:
+    /**
+     * The nodes are dealt out in equal parts until distribute() is called. Throws
+     * base::UserError if a material id of the mesh has no material or two, a material
+     * has no elements, an element is inverted, a law lacks its fibres, a rigid body has
+     * materials or nodes that nothing holds, a constraint or load has nothing to act on,
+     * or quadratic simplices shall have a lumped mass matrix.
+     */
+    FiniteElementBody(BodyParameters<dim> parameters,
+                      Mesh<dim> mesh,
+                      const MPI_Comm communicator);
+
+    bool is_rigid() const override
+    {
+      return parameters.rigid;
+    }
+
+    const ReferenceElement<dim> &reference_element() const
+    {
+      return reference_element_;
+    }
+
+    const MassMatrix<dim> &mass_matrix() const
+    {
+      return mass_matrix_;
+    }
+
+    const std::vector<Material<dim>> &materials() const
+    {
+      return parameters.materials;
+    }
+
+    const std::vector<std::string> &element_fields() const
+    {
+      return parameters.element_fields;
+    }
+
+    std::string description() const override;
+
+    /// Row sums of the mass matrix [cm^dim].
+    const std::vector<double> &node_weights() const override
+    {
+      return mass_matrix_.lumped();
+    }
+
+    /// The materials.
+    std::vector<std::string> elastic_force_names() const override;
+
+    /**
+     * Nodal elastic forces @f$G_a = -\int_U P\,\nabla_s\phi_a\,ds@f$ [dyn]. Collective.
+     * Throws base::UserError on all ranks if an element is inverted; it names part,
+     * element, centroid and time.
+     *
+     * @param material take only the elements of the material with this index
+     */
+    void compute_elastic_force(
+      const VectorType &X,
+      const double t,
+      VectorType &G,
+      const unsigned int material = dealii::numbers::invalid_unsigned_int) const override;
+
+    /**
      * Solve M x = b, with the consistent or lumped mass matrix as the parameters say;
      * @p x holds a first guess. Returns the number of iterations.
      */
-    unsigned int project(VectorType &x, const VectorType &b) const;
-
-    /// @f$\int_U F\, ds@f$ [dyn] of a nodal force density. Collective.
-    dealii::Tensor<1, dim> compute_total(const VectorType &F) const;
+    unsigned int project(VectorType &x, const VectorType &b) const override;
 
     /**
      * Call @p function with each quadrature point of the elastic force, in the order of
@@ -285,40 +408,29 @@ namespace mitre::structure
                            const VectorType &X,
                            const double t) const;
 
-    /// Strain energy [erg in 3D]. Collective.
-    double compute_elastic_energy(const VectorType &X, const double t) const;
-
-    /// For each constraint, the largest distance of a node from its target [cm].
-    /// Collective.
-    std::vector<double> compute_constraint_displacements(const VectorType &X,
-                                                         const double t) const;
+    /// Strain energy [erg; erg/cm in 2D]. Collective.
+    double compute_elastic_energy(const VectorType &X, const double t) const override;
 
     /// Volume of the deformed elements over that of the reference elements: smallest and
     /// largest. Collective.
     std::pair<double, double> compute_volume_ratios(const VectorType &X) const;
 
   private:
+    using Body<dim>::import_positions;
+    using Body<dim>::local_forces;
+
     void check_materials() const;
 
     void check_rigid() const;
 
-    void setup(const std::vector<unsigned int> &owners);
-
-    /// Copy of @p X in which ghost nodes are known too.
-    const double *import_positions(const VectorType &X) const;
-
-    /// Whether there is a load, or a constraint that gives nodal forces.
-    bool has_external_forces() const;
+    void reinit() override;
 
     std::vector<MaterialRange<dim>> material_ranges(
       const double t,
       const unsigned int material = dealii::numbers::invalid_unsigned_int) const;
 
     BodyParameters<dim> parameters;
-    const Mesh<dim> mesh_;
     const ReferenceElement<dim> reference_element_;
-    NodeNumbering numbering_;
-    ElementSet<dim> elements_;
     ReferenceCache<dim> cache;
     MassMatrix<dim> mass_matrix_;
 
@@ -328,10 +440,6 @@ namespace mitre::structure
       unsigned int begin, end, material;
     };
     std::vector<Range> ranges;
-
-    mutable VectorType ghosted_positions, ghosted_velocities;
-    mutable std::vector<double> local_forces;
-    VectorType elastic_force, external_force, elastic_density;
   };
 } // namespace mitre::structure
 

@@ -5,6 +5,7 @@
 #include <mitre/structure/constitutive_laws/constitutive_law.h>
 #include <mitre/structure/constraints/constraint.h>
 #include <mitre/structure/loads/load.h>
+#include <mitre/structure/spring_laws/spring_law.h>
 
 namespace mitre::structure
 {
@@ -21,6 +22,10 @@ namespace mitre::structure
   /// The loads by the names that parameter files use.
   template <int dim>
   const base::PluginRegistry<Load<dim>> &loads();
+
+
+  /// The laws of the springs of fibre parts by the names that parameter files use.
+  const base::PluginRegistry<SpringLaw> &spring_laws();
 } // namespace mitre::structure
 
 #endif

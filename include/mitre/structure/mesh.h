@@ -10,11 +10,13 @@
 
 namespace mitre::structure
 {
-  /// The shapes that elements may have; a mesh has elements of one shape only.
+  /// The shapes that elements may have; a mesh has elements of one shape only. Segments
+  /// are no finite elements: they say which nodes of a fibre part are neighbours.
   enum class ElementShape : unsigned char
   {
     simplex,
-    hypercube
+    hypercube,
+    segment ///< between two nodes, or a node by itself twice: of fibres
   };
 
 

@@ -62,9 +62,11 @@ namespace mitre::structure
     ElementSet() = default;
 
     /// @param elements in the order in which loops shall visit them
+    /// @param other_nodes further nodes of the mesh that this rank needs
     ElementSet(const Mesh<dim> &mesh,
                const NodeNumbering &numbering,
-               std::vector<unsigned int> elements);
+               std::vector<unsigned int> elements,
+               const std::vector<unsigned int> &other_nodes = {});
 
     unsigned int n_elements() const
     {
@@ -100,6 +102,10 @@ namespace mitre::structure
       return file_nodes[i];
     }
 
+    /// The local number of @p node of the mesh, which must be one of this rank's.
+    unsigned int local_node(const NodeNumbering &numbering,
+                            const unsigned int node) const;
+
     const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &partitioner() const
     {
       return partitioner_;
@@ -111,6 +117,9 @@ namespace mitre::structure
     std::vector<unsigned int> elements_;
     std::vector<unsigned int> element_nodes;
     std::vector<unsigned int> file_nodes;
+
+    /// Numbers of the ghosts, in ascending order.
+    std::vector<unsigned int> ghosts;
 
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner_;
   };

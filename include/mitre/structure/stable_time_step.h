@@ -1,6 +1,7 @@
 #ifndef mitre_structure_stable_time_step_h
 #define mitre_structure_stable_time_step_h
 
+#include <functional>
 #include <string>
 
 #include <mitre/structure/body.h>
@@ -27,6 +28,12 @@ namespace mitre::structure
   };
 
 
+  /// Maps a force density of a body, as Body::compute_force_density() gives it, to the
+  /// accelerations of its nodes times the density of the fluid. Linear.
+  using Mobility =
+    std::function<void(const VectorType &force_density, VectorType &acceleration)>;
+
+
   /**
    * The longest time step that the explicit coupling of a part can take, from the largest
    * eigenvalue of @f$M^{-1}K@f$ at the positions @p X, with K the derivative of all nodal
@@ -37,18 +44,24 @@ namespace mitre::structure
    * where c is the largest rate of damping over @f$\rho@f$: the bound of central
    * differences with lagging damping.
    *
+   * Fibres have no mass of their own; there @p mobility takes the place of 1/M: the force
+   * density spread to the grid, and interpolated.
+   *
    * An estimate: motions that the grid does not resolve move more fluid, so that a mesh
    * that is finer than the grid may take longer steps; fibres stiffen as they are
    * stretched, and slack ones count half, so that a part that will be loaded may need
    * shorter ones. Collective.
    *
    * @param density of the fluid [g/cm^3]
+   * @param mobility needed for fibres; if there is none, the body moves with the fluid
+   * that it displaces
    */
   template <int dim>
   StableTimeStep estimate_stable_time_step(const Body<dim> &body,
                                            const VectorType &X,
                                            const double t,
-                                           const double density);
+                                           const double density,
+                                           const Mobility &mobility = {});
 
 
   /// "a time step of 2.1e-05 s, limited by material chordae of part chordae"

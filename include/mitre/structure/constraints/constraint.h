@@ -52,6 +52,12 @@ namespace mitre::structure
                                    const double t,
                                    VectorType &F) const = 0;
 
+    /// Whether it acts on nodes alone, so that a body needs no elements for it.
+    virtual bool acts_on_points() const
+    {
+      return false;
+    }
+
     /// Whether add_forces() has something to add.
     virtual bool has_nodal_forces() const
     {

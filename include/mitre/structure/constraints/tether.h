@@ -56,6 +56,11 @@ namespace mitre::structure
       return kind != Kind::volume;
     }
 
+    bool acts_on_points() const override
+    {
+      return kind == Kind::points;
+    }
+
     void add_forces(const NodalState &state, double *forces) const override;
 
     void set_targets(const double t, VectorType &X) const override;
