@@ -108,7 +108,7 @@ namespace coupling_tests
 
   /// Irregular nodal values.
   template <int dim>
-  VectorType make_nodal_field(const structure::FiniteElementBody<dim> &body)
+  VectorType make_nodal_field(const structure::Body<dim> &body)
   {
     std::vector<double> values;
     for (const Point<dim> &s : body.mesh().nodes)

@@ -214,7 +214,7 @@ namespace structure_tests
 
 
   template <int dim>
-  void set_positions(const FiniteElementBody<dim> &body, VectorType &X)
+  void set_positions(const Body<dim> &body, VectorType &X)
   {
     std::vector<double> values;
     for (const dealii::Point<dim> &s : body.mesh().nodes)
