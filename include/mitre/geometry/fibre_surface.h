@@ -34,7 +34,9 @@ namespace mitre::geometry
     bool diagonals = false;
 
     /// Whether the surface is without bending moments in its shape at rest, or, if not,
-    /// where it is flat.
+    /// where it is flat. Nodes within quadrilaterals lie on straight lines between
+    /// corners; a curved surface that is flat at rest begins with all of its bending at
+    /// the corners, and twice the energy, until its nodes have moved.
     bool curved_at_rest = true;
   };
 
