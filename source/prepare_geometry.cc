@@ -10,6 +10,7 @@
 #include <mitre/geometry/collapsible_channel.h>
 #include <mitre/geometry/fibre_surface.h>
 #include <mitre/geometry/mitral_valve.h>
+#include <mitre/geometry/prosthesis.h>
 
 namespace
 {
@@ -25,9 +26,8 @@ namespace
     "\n"
     "Of a mitral valve, leaflets.msh, chordae.msh, disc.msh and "
     "tube.msh (gmsh, ASCII, version\n2.2) and summary.txt in the output "
-    "folder; of a fibre surface and of a collapsible channel,\n"
-    "files of fibres (.vertex, .spring, .beam, .target). Lengths are in "
-    "cm.\n";
+    "folder; of a prosthesis, a\nfibre surface and a collapsible channel files of fibres "
+    "(.vertex, .spring, .beam, .target).\nLengths are in cm.\n";
 
 
   void declare_parameters(dealii::ParameterHandler &prm)
@@ -35,11 +35,16 @@ namespace
     prm.declare_entry(
       "Geometry",
       "mitral valve",
-      dealii::Patterns::Selection("mitral valve|fibre surface|collapsible channel"),
-      "What to make. 'mitral valve': meshes, by all but the following two "
-      "subsections; 'fibre surface': fibres that span the quadrilaterals "
+      dealii::Patterns::Selection(
+        "mitral valve|prosthesis|fibre surface|collapsible channel"),
+      "What to make. 'mitral valve': meshes, by all but the following three "
+      "subsections; 'prosthesis': a chorded prosthesis as fibres; 'fibre surface': "
+      "fibres that span the quadrilaterals "
       "of a mesh; 'collapsible channel': the upper wall of a channel as "
       "fibres, a part of it elastic.");
+    prm.enter_subsection("Prosthesis");
+    mitre::geometry::ProsthesisParameters::declare_parameters(prm);
+    prm.leave_subsection();
     prm.enter_subsection("Fibre surface");
     mitre::geometry::FibreSurfaceParameters::declare_parameters(prm);
     prm.leave_subsection();
@@ -53,6 +58,14 @@ namespace
   std::string prepare(dealii::ParameterHandler &prm)
   {
     const std::string geometry = prm.get("Geometry");
+    if (geometry == "prosthesis")
+      {
+        mitre::geometry::ProsthesisParameters parameters;
+        prm.enter_subsection("Prosthesis");
+        parameters.parse_parameters(prm);
+        prm.leave_subsection();
+        return mitre::geometry::prepare_prosthesis(parameters);
+      }
     if (geometry == "fibre surface")
       {
         mitre::geometry::FibreSurfaceParameters parameters;

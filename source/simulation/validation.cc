@@ -64,7 +64,9 @@ namespace mitre::simulation
     template <int dim>
     unsigned int n_corners(const structure::Mesh<dim> &mesh)
     {
-      return mesh.shape == structure::ElementShape::simplex ? dim + 1 : 1u << dim;
+      return mesh.shape == structure::ElementShape::segment   ? 2
+             : mesh.shape == structure::ElementShape::simplex ? dim + 1
+                                                              : 1u << dim;
     }
 
 

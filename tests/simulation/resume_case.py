@@ -141,7 +141,7 @@ def write_mesh(name="block", x=0.4, y=0.35, width=0.2, height=0.2, n=8):
 
 def write_meshes():
     write_mesh()
-    write_mesh("bar", 1.5, 0.1, 0.06, 0.06, 4)
+    write_mesh("bar", 0.75, 0.1, 0.06, 0.06, 4)
 
 
 def write_parameters(folder, **changes):
