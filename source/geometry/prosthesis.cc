@@ -58,7 +58,7 @@ namespace mitre::geometry
         {"Attachment distance", &P::attachment_distance, 2.4, 0., 8., "Distance of the two attachment points in z [cm]."},
         {"Leaflet spacing", &P::leaflet_spacing, 0.1, 1e-3, 1., "Length of the fibre segments of the leaflets [cm]; half of the grid's spacing or less."},
         {"Chord spacing", &P::chord_spacing, 0.1, 1e-3, 1., "The same for the chordae between leaflets and attachment points [cm]."},
-        {"Rigid spacing", &P::rigid_spacing, 0.1, 1e-3, 1., "Distance of the nodes of the disc and size of the tube's elements [cm]."},
+        {"Rigid spacing", &P::rigid_spacing, 0.1, 1e-3, 1., "Distance of the nodes of the disc, and half of the size of the tube's elements [cm]."},
         {"Target stiffness", &P::target_stiffness, 1e5, 0., 1e12, "Of the target points [dyn/cm]."},
         {"Target damping", &P::target_damping, 0., 0., 1e12, "Of the target points [dyn s/cm]."},
         {"Tube inner diameter", &P::tube_inner_diameter, 5.6, 1., 100., "[cm]"},
@@ -525,7 +525,7 @@ namespace mitre::geometry
     tube.tube_inner_diameter = parameters.tube_inner_diameter;
     tube.tube_thickness      = parameters.tube_thickness;
     tube.tube_length         = parameters.tube_length;
-    tube.tube_element_size   = parameters.rigid_spacing;
+    tube.tube_element_size   = 2 * parameters.rigid_spacing;
     tube.tube_layers         = 1;
     write_msh(build_tube(tube), folder + "/tube.msh");
 
