@@ -130,6 +130,12 @@ namespace mitre::geometry
                       dealii::Patterns::Bool(),
                       "Whether leaflets have springs along diagonals, too, so that they "
                       "resist shear; elements must then be about square.");
+    prm.declare_entry("Leaflet bending",
+                      "true",
+                      dealii::Patterns::Bool(),
+                      "Whether leaflets resist bending; false: they have no beams.");
+    prm.declare_entry(
+      "Chordal bending", "true", dealii::Patterns::Bool(), "The same for the chordae.");
     prm.declare_entry("Anterior chordae",
                       "6",
                       dealii::Patterns::Integer(0, 100),
@@ -144,7 +150,9 @@ namespace mitre::geometry
 
   void ProsthesisParameters::parse_parameters(dealii::ParameterHandler &prm)
   {
-    output_folder = prm.get("Output folder");
+    output_folder   = prm.get("Output folder");
+    leaflet_bending = prm.get_bool("Leaflet bending");
+    chordal_bending = prm.get_bool("Chordal bending");
     for (const Entry &entry : entries())
       this->*entry.member = prm.get_double(entry.name);
     sheet.modulus       = prm.get_double("Young's modulus");
@@ -340,7 +348,7 @@ namespace mitre::geometry
           spring.force_function = 1;
           network.springs.push_back(spring);
         }
-      for (unsigned int i = 0; i + 2 < nodes.size(); ++i)
+      for (unsigned int i = 0; parameters.chordal_bending && i + 2 < nodes.size(); ++i)
         {
           const double ds = 0.5 * (rest_lengths[i] + rest_lengths[i + 1]);
           structure::Beam<3> beam;
@@ -428,7 +436,6 @@ namespace mitre::geometry
     structure::FibreNetwork<3> &valve = result.valve;
     valve.source = valve.spring_source = "leaflets and chordae";
     result.n_leaflet_springs           = valve.springs.size();
-    result.n_leaflet_beams             = valve.beams.size();
 
     // Nodes between corners, as make_fibres() has made them.
     std::map<std::pair<unsigned int, unsigned int>, unsigned int> middle_of;
@@ -436,6 +443,10 @@ namespace mitre::geometry
     for (const structure::Beam<3> &beam : valve.beams)
       if (beam.nodes[0] < n_corners && beam.nodes[2] < n_corners)
         middle_of[std::minmax(beam.nodes[0], beam.nodes[2])] = beam.nodes[1];
+
+    if (!parameters.leaflet_bending)
+      valve.beams.clear();
+    result.n_leaflet_beams = valve.beams.size();
 
     // Step 2: the bound edge is held.
     for (unsigned int i = 0; i < n; ++i)

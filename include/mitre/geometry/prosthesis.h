@@ -8,7 +8,6 @@
 
 #include <mitre/geometry/annulus.h>
 #include <mitre/geometry/fibre_surface.h>
-#include <mitre/structure/fibre_network.h>
 
 namespace mitre::geometry
 {
@@ -36,6 +35,9 @@ namespace mitre::geometry
 
     unsigned int n_anterior_chordae = 0, n_posterior_chordae = 0;
     double chord_area = 0, chord_modulus = 0, chord_slack = 0;
+
+    /// Whether leaflets and chordae have beams.
+    bool leaflet_bending = true, chordal_bending = true;
     double attachment_x = 0, attachment_y = 0, attachment_distance = 0;
 
     double leaflet_spacing = 0, chord_spacing = 0, rigid_spacing = 0;
