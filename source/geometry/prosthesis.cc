@@ -61,6 +61,7 @@ namespace mitre::geometry
         {"Rigid spacing", &P::rigid_spacing, 0.1, 1e-3, 1., "Distance of the nodes of the disc, and half of the size of the tube's elements [cm]."},
         {"Target stiffness", &P::target_stiffness, 1e5, 0., 1e12, "Of the target points [dyn/cm]."},
         {"Target damping", &P::target_damping, 0., 0., 1e12, "Of the target points [dyn s/cm]."},
+        {"Attachment stiffness", &P::attachment_stiffness, 1e6, 0., 1e12, "Of the target points at the ends of the chordae [dyn/cm]."},
         {"Tube inner diameter", &P::tube_inner_diameter, 5.6, 1., 100., "[cm]"},
         {"Tube thickness", &P::tube_thickness, 0.25, 0.01, 10., "[cm]"},
         {"Tube length", &P::tube_length, 16., 1., 1000., "[cm]"}};
@@ -92,12 +93,13 @@ namespace mitre::geometry
 
     void add_target(structure::FibreNetwork<3> &network,
                     const unsigned int node,
-                    const ProsthesisParameters &parameters)
+                    const double stiffness,
+                    const double damping)
     {
       structure::TargetPoint target;
       target.node      = node;
-      target.stiffness = parameters.target_stiffness;
-      target.damping   = parameters.target_damping;
+      target.stiffness = stiffness;
+      target.damping   = damping;
       network.targets.push_back(target);
     }
   } // namespace
@@ -398,7 +400,10 @@ namespace mitre::geometry
             {
               rings.back().push_back(network.nodes.size());
               network.nodes.push_back(at(2 * PI * i / n_around, part));
-              add_target(network, rings.back().back(), parameters);
+              add_target(network,
+                         rings.back().back(),
+                         parameters.target_stiffness,
+                         parameters.target_damping);
             }
         }
       return network;
@@ -451,10 +456,14 @@ namespace mitre::geometry
     // Step 2: the bound edge is held.
     for (unsigned int i = 0; i < n; ++i)
       {
-        add_target(valve, corner(i, 0), parameters);
+        add_target(
+          valve, corner(i, 0), parameters.target_stiffness, parameters.target_damping);
         const std::pair<unsigned int, unsigned int> side =
           std::minmax(corner(i, 0), corner(i + 1, 0));
-        add_target(valve, middle_of.at(side), parameters);
+        add_target(valve,
+                   middle_of.at(side),
+                   parameters.target_stiffness,
+                   parameters.target_damping);
       }
 
     // Step 3: chordae, spread evenly over each leaflet, whose ends lie at 90 degrees.
@@ -505,7 +514,8 @@ namespace mitre::geometry
           rest_lengths.push_back(chord.rest_length / n_free);
         }
       add_chord_segments(valve, nodes, rest_lengths, parameters);
-      add_target(valve, nodes.back(), parameters);
+      add_target(
+        valve, nodes.back(), parameters.attachment_stiffness, parameters.target_damping);
       result.chordae.push_back(chord);
     };
     for (unsigned int k = 0; k < parameters.n_anterior_chordae; ++k)

@@ -113,7 +113,7 @@ def expect(name, words, ranks=(1, 2), change=(), meddle=None, checkpoint=True, *
 
 
 saved = ["The run stops in step", "which begins at t =", "the flow is fastest",
-         "from the node of part block whose place at rest is", "The state before this step",
+         "from the node of part ", "whose place at rest is", "The state before this step",
          "The newest checkpoint is"]
 
 # A step that is too long: the flow becomes too fast.

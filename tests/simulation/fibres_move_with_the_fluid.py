@@ -24,7 +24,7 @@ program, folder = sys.argv[1:3]
 shutil.rmtree(folder, ignore_errors=True)
 os.makedirs(folder)
 os.chdir(folder)
-case.write_mesh()
+case.write_meshes()
 failures = []
 
 

@@ -334,7 +334,7 @@ errors = [
          ["Fibre file", "cube.msh: expected a name that ends with .vertex"]),
         ("a parameter of finite elements in a part of fibres",
          strand("    set Mesh file = cube.msh\n"),
-         ["there is no parameter 'Mesh file' in the subsection Structure/Part strand"]),
+         ["there is no parameter 'Mesh file' in the subsection Structure / Part strand"]),
         ("fewer nodes than announced", strand(vertex="3\n0.3 0.3 0.3\n"),
          ["Fibre file", "strand.vertex, line 3: the file ends after 1 nodes",
           "announces 3"]),

@@ -41,7 +41,7 @@ namespace mitre::geometry
     double attachment_x = 0, attachment_y = 0, attachment_distance = 0;
 
     double leaflet_spacing = 0, chord_spacing = 0, rigid_spacing = 0;
-    double target_stiffness = 0, target_damping = 0;
+    double target_stiffness = 0, target_damping = 0, attachment_stiffness = 0;
 
     double tube_inner_diameter = 0, tube_thickness = 0, tube_length = 0;
 
