@@ -1,9 +1,6 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <map>
 #include <sstream>
 
@@ -184,15 +181,14 @@ namespace mitre::geometry
     : parameters(parameters)
   {
     constexpr unsigned int n = 4000;
-    double length            = 0;
+    std::vector<double> angles;
+    std::vector<Point3> points;
     for (unsigned int i = 0; i <= n; ++i)
       {
-        const double angle = 2 * PI * i / n;
-        if (i > 0)
-          length += annulus(angle).distance(annulus(sample_angles.back()));
-        sample_angles.push_back(angle);
-        sample_lengths.push_back(length);
+        angles.push_back(2 * PI * i / n);
+        points.push_back(annulus(angles.back()));
       }
+    arc = SampledLength(angles, points);
   }
 
 
@@ -270,23 +266,14 @@ namespace mitre::geometry
   {
     std::vector<double> result;
     for (unsigned int i = 0; i < n; ++i)
-      {
-        const double wanted = sample_lengths.back() * i / n;
-        const auto after =
-          std::upper_bound(sample_lengths.begin(), sample_lengths.end(), wanted);
-        const std::size_t k = after - sample_lengths.begin();
-        const double part =
-          (wanted - sample_lengths[k - 1]) / (sample_lengths[k] - sample_lengths[k - 1]);
-        result.push_back(sample_angles[k - 1] +
-                         part * (sample_angles[k] - sample_angles[k - 1]));
-      }
+      result.push_back(arc.parameter_at(double(i) / n));
     return result;
   }
 
 
   double ProsthesisShape::annulus_length() const
   {
-    return sample_lengths.back();
+    return arc.total();
   }
 
 
@@ -469,25 +456,26 @@ namespace mitre::geometry
     // Step 3: chordae, spread evenly over each leaflet, whose ends lie at 90 degrees.
     const auto add_chord = [&](const double angle) {
       ProsthesisChord chord;
-      double least = 1e10;
+      unsigned int column = 0;
+      double least        = 1e10;
       for (unsigned int i = 0; i < n; ++i)
         {
           const double away = std::abs(std::remainder(angles[i] - angle, 2 * PI));
           if (away < least)
             {
-              least        = away;
-              chord.column = i;
+              least  = away;
+              column = i;
             }
         }
-      chord.side         = std::sin(angle) > 0 ? 1 : -1;
-      const double alpha = angles[chord.column];
+      chord.angle = angles[column];
+      chord.side  = std::sin(angle) > 0 ? 1 : -1;
       const Point3 end(parameters.annulus_x + parameters.attachment_x,
                        parameters.axis_y + parameters.attachment_y,
                        parameters.axis_z +
                          0.5 * chord.side * parameters.attachment_distance);
-      const Point3 edge   = shape.point(alpha, 1);
+      const Point3 edge   = shape.point(chord.angle, 1);
       chord.start_length  = edge.distance(end);
-      chord.closed_length = shape.closed_free_edge(alpha).distance(end);
+      chord.closed_length = shape.closed_free_edge(chord.angle).distance(end);
       chord.rest_length =
         std::max(chord.start_length, (1 + parameters.chord_slack) * chord.closed_length);
 
@@ -498,10 +486,10 @@ namespace mitre::geometry
           if (j > 0)
             {
               const std::pair<unsigned int, unsigned int> side =
-                std::minmax(corner(chord.column, j - 1), corner(chord.column, j));
+                std::minmax(corner(column, j - 1), corner(column, j));
               nodes.push_back(middle_of.at(side));
             }
-          nodes.push_back(corner(chord.column, j));
+          nodes.push_back(corner(column, j));
         }
       for (unsigned int i = 0; i + 1 < nodes.size(); ++i)
         rest_lengths.push_back(valve.nodes[nodes[i]].distance(valve.nodes[nodes[i + 1]]));
@@ -562,15 +550,13 @@ namespace mitre::geometry
          << " beams; disc: " << prosthesis.disc.nodes.size()
          << " nodes\n  chordae from the free edge to their attachment points [cm]:\n"
          << "    angle   start  closed  at rest\n";
-    const std::vector<double> angles = shape.angles(
-      4 * std::ceil(shape.annulus_length() / (8 * parameters.leaflet_spacing)));
     for (const ProsthesisChord &chord : prosthesis.chordae)
       {
         char line[100];
         std::snprintf(line,
                       sizeof(line),
                       "    %5.0f %7.2f %7.2f %8.2f\n",
-                      degrees(std::remainder(angles[chord.column], 2 * PI)),
+                      degrees(std::remainder(chord.angle, 2 * PI)),
                       chord.start_length,
                       chord.closed_length,
                       chord.rest_length);

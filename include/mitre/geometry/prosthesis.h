@@ -100,16 +100,16 @@ namespace mitre::geometry
 
   private:
     ProsthesisParameters parameters;
-    std::vector<double> sample_angles, sample_lengths;
+    SampledLength arc;
   };
 
 
   /// A chord along a meridian of a leaflet and on to an attachment point.
   struct ProsthesisChord
   {
-    /// Column of the leaflets' nodes, and 1 or -1 for the attachment point at +z or -z.
-    unsigned int column = 0;
-    int side            = 1;
+    /// Of its meridian, and 1 or -1 for the attachment point at +z or -z.
+    double angle = 0;
+    int side     = 1;
 
     /// From the free edge to the attachment point: at the start, in the closed valve, and
     /// at rest [cm].
