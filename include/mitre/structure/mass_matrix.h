@@ -33,10 +33,10 @@ namespace mitre::structure
     void vmult(VectorType &dst, const VectorType &src) const;
 
     /**
-     * Solve M x = b by conjugate gradients with the diagonal as preconditioner, all
-     * components at once, starting from @p x, until the residual in the norm of the
-     * inverse diagonal is below @p tolerance times that of b. Returns the number of
-     * iterations; throws dealii::ExcMessage after 1000.
+     * Solve M x = b by conjugate gradients with Gauss-Seidel sweeps as preconditioner,
+     * all components at once, starting from @p x, until the residual in the norm of the
+     * inverse diagonal is below @p tolerance times that of b (or at round-off). Returns
+     * the number of iterations; throws base::UserError after 1000.
      */
     unsigned int solve(VectorType &x, const VectorType &b, const double tolerance) const;
 
