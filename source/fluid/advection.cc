@@ -244,6 +244,7 @@ namespace mitre::fluid
     const grid::PatchGrid<dim> &patch_grid = space.grid();
     const int n                            = patch_grid.n_cells_per_side();
     match_starts                           = {0};
+    const auto [first_owned, end_owned]    = space.owned_range();
     std::vector<types::global_dof_index> ghosts;
     for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
       for (unsigned int c = 0; c < dim; ++c)
@@ -308,7 +309,8 @@ namespace mitre::fluid
                               entry += index * space.stride(c, e);
                             }
                           matches.push_back({at, entry, upper == 1 ? -area : area});
-                          ghosts.push_back(entry);
+                          if (entry < first_owned || entry >= end_owned)
+                            ghosts.push_back(entry);
                         }
                     }
                 }

@@ -32,8 +32,19 @@ namespace mitre::fluid
     const grid::PatchGrid<dim> &patch_grid = space.grid();
     const auto &[lower, upper]             = patch_grid.box().get_boundary_points();
     typename grid::StaggeredSpace<dim>::Index index;
+    // whether any of a patch's faces is near enough to a side of the box
+    const auto is_near = [&](const grid::Patch<dim> &patch) {
+      for (unsigned int d = 0; d < dim; ++d)
+        if (!patch_grid.periodic()[d] &&
+            std::min(patch.lower[d] - lower[d],
+                     upper[d] - patch.lower[d] -
+                       patch.h[d] * patch_grid.n_cells_per_side()) <
+              (widest + 1.) * patch.h[d])
+          return true;
+      return false;
+    };
     for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
-      for (unsigned int c = 0; c < dim; ++c)
+      for (unsigned int c = 0; c < (is_near(patch_grid.patch(p)) ? dim : 0); ++c)
         for (unsigned int i = 0; i < space.n_dofs_per_component(); ++i)
           {
             unsigned int rest = i;

@@ -52,25 +52,40 @@ namespace mitre::fluid
     , parameters(parameters)
     , velocities_zero(boundary_conditions.all_velocities_zero())
   {
-    setup();
+    setup_operators();
+    setup_solver();
+    for (VectorType *v : {&u, &advection_old})
+      stokes_operators->initialize_velocity(*v);
+    stokes_operators->initialize_pressure(p);
   }
 
 
   template <int dim>
-  void NavierStokes<dim>::setup()
+  void NavierStokes<dim>::setup_operators()
   {
+    // these refer to the operators
+    stokes_solver.reset();
+    advection.reset();
+    feedback.reset();
     velocity_space = std::make_unique<grid::StaggeredSpace<dim>>(
-      patch_grid, boundary_conditions.kinds());
+      patch_grid, boundary_conditions.kinds(), row_cache);
     stokes_operators = std::make_unique<StokesOperators<dim>>(*velocity_space);
-    stokes_solver    = std::make_unique<StokesSolver<dim>>(
+  }
+
+
+  template <int dim>
+  void NavierStokes<dim>::setup_solver()
+  {
+    stokes_solver = std::make_unique<StokesSolver<dim>>(
       *stokes_operators, parameters.solver, parameters.density, parameters.viscosity);
-    advection = std::make_unique<Advection<dim>>(*velocity_space, parameters.advection);
+    if (advection == nullptr)
+      advection = std::make_unique<Advection<dim>>(*velocity_space, parameters.advection);
     feedback =
       std::make_unique<FeedbackForcing<dim>>(*velocity_space, boundary_conditions);
-    for (VectorType *v :
-         {&u, &u_old, &u_new, &advection_old, &advection_new, &provisional, &rhs, &work})
+    stokes_operators->initialize_velocity(u_old);
+    for (VectorType *v : scratch_velocities())
       stokes_operators->initialize_velocity(*v);
-    for (VectorType *v : {&p, &p_old, &p_new})
+    for (VectorType *v : {&p_old, &p_new})
       stokes_operators->initialize_pressure(*v);
     last_dt              = 0.;
     n_steps_since_change = 0;
@@ -340,25 +355,44 @@ namespace mitre::fluid
     std::unique_ptr<grid::SolutionTransfer<dim>> transfer;
     bool rebuilt      = false;
     const auto before = [&]() {
+      // The memory of what a step needs serves the copies: pages that are new to a
+      // process are far more expensive than what is done with them.
+      for (VectorType *v : scratch_velocities())
+        v->reinit(0);
+      if (advection == nullptr)
+        advection =
+          std::make_unique<Advection<dim>>(*velocity_space, parameters.advection);
       transfer = std::make_unique<grid::SolutionTransfer<dim>>(
         patch_grid,
         *velocity_space,
+        advection->velocity_halo(),
         stokes_operators->pressure_halo(),
-        std::vector<const VectorType *>{&u, &advection_old},
-        std::vector<const VectorType *>{&p});
+        std::vector<VectorType *>{&u, &advection_old},
+        std::vector<VectorType *>{&p});
     };
-    const auto after = [&]() {
-      // the transfer refers to the old spaces until it has finished
-      const auto old_space     = std::move(velocity_space);
-      const auto old_operators = std::move(stokes_operators);
-      const auto old_solver    = std::move(stokes_solver);
-      setup();
-      rebuilt = true;
-      transfer->finish(*velocity_space, {&u, &advection_old}, {&p});
+    const auto after = [&](const bool changed) {
+      if (changed)
+        {
+          // the transfer refers to the old spaces until it has finished
+          const auto old_space     = std::move(velocity_space);
+          const auto old_operators = std::move(stokes_operators);
+          setup_operators();
+          for (VectorType *v : {&u, &advection_old})
+            stokes_operators->initialize_velocity(*v);
+          stokes_operators->initialize_pressure(p);
+          transfer->finish(*velocity_space, {&u, &advection_old}, {&p});
+          // what the transfer has added to the divergence has no mean over these blocks
+          set_fixed_faces(u, time);
+          stokes_operators->equalize_divergence_in_blocks(u);
+          rebuilt = true;
+        }
+      else
+        {
+          transfer->give_back();
+          for (VectorType *v : scratch_velocities())
+            stokes_operators->initialize_velocity(*v);
+        }
       transfer.reset();
-      // what the transfer has added to the divergence has no mean over these blocks
-      set_fixed_faces(u, time);
-      stokes_operators->equalize_divergence_in_blocks(u);
     };
     // the root mean square over the box: what finer cells inherit does not count more
     const auto size_of_divergence = [this]() {
@@ -385,9 +419,9 @@ namespace mitre::fluid
     };
     const double divergence_before = size_of_divergence();
     patch_grid.adapt(wanted_level, before, after);
-    // also if the forest's balance has made it what it was: the spaces are new
     if (!rebuilt)
       return false;
+    setup_solver();
     // given velocities may have another mean on new faces
     double width = std::numeric_limits<double>::max();
     for (unsigned int d = 0; d < dim; ++d)

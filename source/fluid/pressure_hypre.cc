@@ -48,15 +48,19 @@ namespace mitre::fluid
     std::vector<grid::LinearCombination<dim>> followed;
     std::vector<int> follows(static_cast<std::size_t>(n_owned) * n_entries, -1);
     const auto &table = space.coarse_fine_faces();
-    for (unsigned int row = 0; row < table.n_rows(); ++row)
-      {
-        grid::LinearCombination<dim> masters;
-        table.for_each_entry(row, [&](const unsigned int entry, const double weight) {
-          masters.entries.emplace_back(partitioner.local_to_global(entry), weight);
-        });
-        follows[table.destination(row)] = followed.size();
-        followed.push_back(masters);
-      }
+    for (unsigned int p = 0; p < n_owned; ++p)
+      for (unsigned int part = table.begin(p); part < table.end(p); ++part)
+        for (unsigned int row = 0; row < table.n_rows(part, 0); ++row)
+          {
+            grid::LinearCombination<dim> masters;
+            table.for_each_entry(
+              part, 0, row, [&](const unsigned int entry, const double weight) {
+                masters.entries.emplace_back(partitioner.local_to_global(entry), weight);
+              });
+            follows[space.first_dof(p, 0) + table.destination(part, 0, row)] =
+              followed.size();
+            followed.push_back(masters);
+          }
     for (unsigned int p = 0; p < n_owned; ++p)
       for (unsigned int c = 0; c < dim; ++c)
         if (patch_grid.neighbor(p, 2 * c + 1) == Neighbor::same)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include <mitre/fluid/stokes_operators.h>
 
@@ -50,16 +51,18 @@ namespace mitre::fluid
       return std::make_pair(p * cells_per_patch + cell, area);
     };
     const auto &table = space.coarse_fine_faces();
-    for (unsigned int row = 0; row < table.n_rows(); ++row)
-      {
-        const std::size_t dof = table.destination(row);
-        const unsigned int c =
-          (dof % space.n_dofs_per_patch()) / space.n_dofs_per_component();
-        const unsigned int p = dof / space.n_dofs_per_patch();
-        const unsigned int plane =
-          ((dof - space.first_dof(p, c)) / space.stride(c, c)) % (n + 1);
-        interface_cells.push_back(cell_at(dof, 2 * c + (plane == 0 ? 0 : 1)));
-      }
+    for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
+      for (unsigned int part = table.begin(p); part < table.end(p); ++part)
+        for (unsigned int row = 0; row < table.n_rows(part, 0); ++row)
+          {
+            const unsigned int entry = table.destination(part, 0, row);
+            const unsigned int c     = entry / space.n_dofs_per_component();
+            const unsigned int plane =
+              (entry % space.n_dofs_per_component() / space.stride(c, c)) % (n + 1);
+            const std::size_t dof   = space.first_dof(p, 0) + entry;
+            const auto [cell, area] = cell_at(dof, 2 * c + (plane == 0 ? 0 : 1));
+            interface_faces.push_back({dof, cell, area});
+          }
     for (const auto &[p, side] : space.coarse_sides())
       {
         const unsigned int c = side / 2, s = space.stride(c, c);
@@ -68,15 +71,28 @@ namespace mitre::fluid
             const std::size_t dof =
               space.first_dof(p, c) + (side % 2) * n * s + (i / s) * s * (n + 1) + i % s;
             const auto [cell, area] = cell_at(dof, side);
-            coarse_faces.push_back({dof, cell, area});
+            interface_faces.push_back({dof, cell, area});
           }
       }
 
     // What a pressure without pattern reaches is all that any pressure can reach.
     VectorType pressure;
     initialize_pressure(pressure);
-    for (std::size_t i = 0; i < pressure.locally_owned_size(); ++i)
-      pressure.local_element(i) = 1. + 0.5 * std::sin(1. + 1.7 * i * i);
+    for (const InterfaceFace &face : interface_faces)
+      {
+        // Numbers without any relation between those of neighbours: the differences of
+        // a mere multiple of the cell's number, say, cancel. (Thomas Wang's mixing of
+        // bits.)
+        std::uint64_t key = face.cell + cells_per_patch * patch_grid.patch(0).global_id;
+        key               = (~key) + (key << 21);
+        key ^= key >> 24;
+        key *= 265;
+        key ^= key >> 14;
+        key *= 21;
+        key ^= key >> 28;
+        key += key << 31;
+        pressure.local_element(face.cell) = 1. + 0x1p-33 * (key & 0xffffffffu);
+      }
     interface_forces = 0.;
     set_interface_forces(pressure);
     space.collect_interfaces(interface_forces);
@@ -239,11 +255,7 @@ namespace mitre::fluid
   void StokesOperators<dim>::set_interface_forces(const VectorType &pressure) const
   {
     const double *p_value = pressure.begin();
-    const auto &table     = space.coarse_fine_faces();
-    for (unsigned int row = 0; row < table.n_rows(); ++row)
-      interface_forces.local_element(table.destination(row)) =
-        interface_cells[row].second * p_value[interface_cells[row].first];
-    for (const CoarseFace &face : coarse_faces)
+    for (const InterfaceFace &face : interface_faces)
       interface_forces.local_element(face.dof) = face.area * p_value[face.cell];
   }
 

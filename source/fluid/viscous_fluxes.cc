@@ -11,42 +11,55 @@ namespace mitre::fluid
   ViscousFluxes<dim>::ViscousFluxes(const grid::StaggeredSpace<dim> &space)
     : space(space)
     , patch_grid(space.grid())
+    , rows(patch_grid, space.n_dofs_per_patch())
   {
-    if (!patch_grid.has_coarse_fine_interfaces())
-      return;
-    const int n = patch_grid.n_cells_per_side();
-    Row row;
     for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
       {
-        if (!patch_grid.touches_other_level(p))
-          continue;
-        row.coarse_values.clear();
-        const auto &patch = patch_grid.patch(p);
-        for (unsigned int c = 0; c < dim; ++c)
-          {
-            unsigned int entry = 0;
-            std::array<int, 3> own, extent{{1, 1, 1}};
-            for (unsigned int d = 0; d < dim; ++d)
-              extent[d] = space.extent(c, d);
-            for (own[2] = 0; own[2] < extent[2]; ++own[2])
-              for (own[1] = 0; own[1] < extent[1]; ++own[1])
-                for (own[0] = 0; own[0] < extent[0]; ++own[0], ++entry)
-                  {
-                    Index i;
-                    bool outermost = false;
-                    for (unsigned int d = 0; d < dim; ++d)
-                      {
-                        outermost = outermost || own[d] == 0 || own[d] == extent[d] - 1;
-                        i[d]      = patch.index[d] * n + own[d];
-                      }
-                    if (outermost && is_corrected(p, c, i))
-                      {
-                        make_row(p, c, i, row);
-                        rows.append(space.first_dof(p, c) + entry, row.value);
-                      }
-                  }
-          }
+        space.row_cache().append_to(
+          rows, p, grid::RowKind::viscous_fluxes, [&](const unsigned int direction) {
+            return build_rows(p, direction);
+          });
+        rows.finish_patch();
       }
+  }
+
+
+  template <int dim>
+  std::shared_ptr<const grid::PatchRows<dim>>
+  ViscousFluxes<dim>::build_rows(const unsigned int p, const unsigned int direction) const
+  {
+    const auto offset = grid::Direction<dim>::offset(direction);
+    grid::PatchRowsBuilder<dim> builder(patch_grid, p, space.n_dofs_per_patch(), 1);
+    const int n       = patch_grid.n_cells_per_side();
+    const auto &patch = patch_grid.patch(p);
+    Row row;
+    unsigned int entry = 0;
+    for (unsigned int c = 0; c < dim; ++c)
+      {
+        std::array<int, 3> own, extent{{1, 1, 1}};
+        for (unsigned int d = 0; d < dim; ++d)
+          extent[d] = space.extent(c, d);
+        for (own[2] = 0; own[2] < extent[2]; ++own[2])
+          for (own[1] = 0; own[1] < extent[1]; ++own[1])
+            for (own[0] = 0; own[0] < extent[0]; ++own[0], ++entry)
+              {
+                Index i;
+                bool here = true;
+                for (unsigned int d = 0; d < dim; ++d)
+                  {
+                    here = here && offset[d] == (own[d] == 0               ? -1
+                                                 : own[d] == extent[d] - 1 ? 1
+                                                                           : 0);
+                    i[d] = patch.index[d] * n + own[d];
+                  }
+                if (here && is_corrected(p, c, i))
+                  {
+                    make_row(p, c, i, row);
+                    builder.append(0, entry, row.value);
+                  }
+              }
+      }
+    return builder.finish();
   }
 
 
@@ -285,13 +298,18 @@ namespace mitre::fluid
                                           const double b,
                                           const bool inhomogeneous) const
   {
-    const double *values = u.begin();
-    for (unsigned int row = 0; row < rows.n_rows(); ++row)
+    for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
       {
-        double sum = rows.apply(row, values);
-        if (inhomogeneous)
-          sum += rows.boundary_value(row);
-        dst.local_element(rows.destination(row)) += b * sum;
+        double *own = dst.begin() + space.first_dof(p, 0);
+        for (unsigned int part = rows.begin(p); part < rows.end(p); ++part)
+          rows.apply(part,
+                     0,
+                     u.begin(),
+                     nullptr,
+                     inhomogeneous,
+                     [own, b](const unsigned int face, const double sum) {
+                       own[face] += b * sum;
+                     });
       }
   }
 

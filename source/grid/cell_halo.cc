@@ -97,11 +97,15 @@ namespace mitre::grid
 
     const types::global_dof_index begin =
       grid.n_owned_patches() == 0 ? 0 : grid.patch(0).global_id * cells_per_patch;
+    const types::global_dof_index end =
+      begin +
+      static_cast<types::global_dof_index>(grid.n_owned_patches()) * cells_per_patch;
     IndexSet owned(grid.n_global_patches() * cells_per_patch);
-    owned.add_range(begin,
-                    begin + static_cast<types::global_dof_index>(grid.n_owned_patches()) *
-                              cells_per_patch);
-    std::vector<types::global_dof_index> ghosts = global;
+    owned.add_range(begin, end);
+    std::vector<types::global_dof_index> ghosts;
+    for (const types::global_dof_index entry : global)
+      if (entry < begin || entry >= end)
+        ghosts.push_back(entry);
     std::sort(ghosts.begin(), ghosts.end());
     ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
     IndexSet ghost_set(owned.size());

@@ -299,6 +299,25 @@ namespace mitre::grid
 
 
   template <int dim>
+  unsigned int PatchGrid<dim>::local_patch(const types::global_dof_index global_id) const
+  {
+    const auto first_ghost = patches.begin() + owned_patches;
+    if (owned_patches > 0 && global_id >= patches[0].global_id &&
+        global_id < patches[0].global_id + owned_patches)
+      return global_id - patches[0].global_id;
+    const auto found =
+      std::lower_bound(first_ghost,
+                       patches.end(),
+                       global_id,
+                       [](const Patch<dim> &patch, const types::global_dof_index id) {
+                         return patch.global_id < id;
+                       });
+    Assert(found != patches.end() && found->global_id == global_id, ExcInternalError());
+    return found - patches.begin();
+  }
+
+
+  template <int dim>
   bool PatchGrid<dim>::touches_other_level(const unsigned int p) const
   {
     for (unsigned int direction = 0; direction < Utilities::fixed_power<dim>(3u);
@@ -595,7 +614,7 @@ namespace mitre::grid
   bool
   PatchGrid<dim>::adapt(const std::function<int(const BoundingBox<dim> &)> &wanted_level,
                         const std::function<void()> &before_change,
-                        const std::function<void()> &after_change)
+                        const std::function<void(const bool)> &after_change)
   {
     bool anything = false;
     // one level up or down a pass; a leaf that is coarsened may be refined again by
@@ -641,15 +660,17 @@ namespace mitre::grid
           before_change();
         tria.execute_coarsening_and_refinement();
         update();
-        if (after_change)
-          after_change();
 
         // p4est's balance may have undone everything that was asked for
         bool same = before.size() == owned_patches;
         for (unsigned int p = 0; same && p < owned_patches; ++p)
           same =
             before[p].first == patches[p].level && before[p].second == patches[p].index;
-        if (Utilities::MPI::min(same ? 1 : 0, tria.get_communicator()) == 1)
+        const bool changed =
+          Utilities::MPI::min(same ? 1 : 0, tria.get_communicator()) == 0;
+        if (after_change)
+          after_change(changed);
+        if (!changed)
           break;
         anything = true;
       }

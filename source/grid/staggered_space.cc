@@ -12,184 +12,17 @@ namespace mitre::grid
   using namespace dealii;
 
   template <int dim>
-  void LinearCombination<dim>::add(const LinearCombination<dim> &other,
-                                   const double factor)
-  {
-    repeats = repeats || other.repeats || !entries.empty();
-    for (const auto &entry : other.entries)
-      entries.emplace_back(entry.first, entry.second * factor);
-    for (const auto &value : other.auxiliary)
-      auxiliary.emplace_back(value.first, value.second * factor);
-    for (BoundaryTerm<dim> term : other.boundary)
-      {
-        term.weight *= factor;
-        boundary.push_back(term);
-      }
-  }
-
-
-  template <int dim>
-  void LinearCombination<dim>::merge()
-  {
-    std::sort(entries.begin(), entries.end());
-    std::size_t size = 0;
-    for (std::size_t i = 0; i < entries.size(); ++i)
-      if (size > 0 && entries[size - 1].first == entries[i].first)
-        entries[size - 1].second += entries[i].second;
-      else
-        entries[size++] = entries[i];
-    entries.resize(size);
-    repeats = false;
-  }
-
-
-  template <int dim>
-  void LinearCombination<dim>::clear()
-  {
-    entries.clear();
-    auxiliary.clear();
-    boundary.clear();
-    repeats = false;
-  }
-
-
-  template <int dim>
-  void CoarseValues<dim>::clear()
-  {
-    places.clear();
-    auxiliary.clear();
-  }
-
-
-  template <int dim>
-  void CombinationSum<dim>::add(const LinearCombination<dim> &terms, const double factor)
-  {
-    for (const auto &[unknown, weight] : terms.entries)
-      {
-        const auto [number, is_new] = numbers.insert(unknown);
-        if (is_new)
-          {
-            number = total.entries.size();
-            total.entries.emplace_back(unknown, factor * weight);
-          }
-        else
-          total.entries[number].second += factor * weight;
-      }
-    for (BoundaryTerm<dim> term : terms.boundary)
-      {
-        term.weight *= factor;
-        total.boundary.push_back(term);
-      }
-  }
-
-
-  template <int dim>
-  void CombinationSum<dim>::add(const LinearCombination<dim> &terms,
-                                const double factor,
-                                const CoarseValues<dim> &coarse_values)
-  {
-    add(terms, factor);
-    for (const auto &[number, weight] : terms.auxiliary)
-      add(coarse_values.values()[number], factor * weight);
-  }
-
-
-  template <int dim>
-  void CombinationSum<dim>::move_to(LinearCombination<dim> &sum)
-  {
-    sum.clear();
-    sum.entries.swap(total.entries);
-    sum.boundary.swap(total.boundary);
-    numbers.clear();
-  }
-
-
-  template <int dim>
-  unsigned int CombinationTable<dim>::append(const unsigned int destination,
-                                             LinearCombination<dim> &row)
-  {
-    for (const auto &[value, weight] : row.auxiliary)
-      {
-        Assert(value <= std::numeric_limits<unsigned short int>::max(),
-               ExcInternalError());
-        auxiliary_columns.push_back(value);
-        auxiliary_weights.push_back(weight);
-      }
-    auxiliary_starts.push_back(auxiliary_columns.size());
-    if (row.repeats)
-      {
-        sum.add(row, 1.);
-        sum.move_to(row);
-      }
-    const unsigned int number = destinations.size();
-    destinations.push_back(destination);
-    for (const auto &entry : row.entries)
-      {
-        global_columns.push_back(entry.first);
-        weights.push_back(entry.second);
-      }
-    starts.push_back(global_columns.size());
-    for (const auto &term : row.boundary)
-      boundary_terms.emplace_back(number, term);
-    return number;
-  }
-
-
-  template <int dim>
-  void CombinationTable<dim>::collect_ghosts(
-    const std::pair<types::global_dof_index, types::global_dof_index> &owned,
-    std::vector<types::global_dof_index> &ghosts) const
-  {
-    const std::size_t n_before = ghosts.size();
-    for (const types::global_dof_index entry : global_columns)
-      if (entry < owned.first || entry >= owned.second)
-        ghosts.push_back(entry);
-    const auto begin = ghosts.begin() + n_before;
-    std::sort(begin, ghosts.end());
-    ghosts.erase(std::unique(begin, ghosts.end()), ghosts.end());
-  }
-
-
-  template <int dim>
-  void CombinationTable<dim>::localize(const Utilities::MPI::Partitioner &partitioner)
-  {
-    columns.resize(global_columns.size());
-    for (std::size_t i = 0; i < columns.size(); ++i)
-      columns[i] = partitioner.global_to_local(global_columns[i]);
-    global_columns.clear();
-    global_columns.shrink_to_fit();
-  }
-
-
-  template <int dim>
-  void CombinationTable<dim>::set_boundary_values(
-    const std::function<double(const BoundaryTerm<dim> &)> &prescribed)
-  {
-    if (boundary_terms.empty())
-      return;
-    boundary_values.assign(destinations.size(), 0.);
-    for (const auto &[row, term] : boundary_terms)
-      boundary_values[row] += term.weight * prescribed(term);
-  }
-
-
-  template <int dim>
-  std::size_t CombinationTable<dim>::memory_consumption() const
-  {
-    return destinations.size() * 12 + columns.size() * 12 +
-           auxiliary_columns.size() * 10 +
-           boundary_terms.size() * sizeof(boundary_terms[0]) + boundary_values.size() * 8;
-  }
-
-
-  template <int dim>
   StaggeredSpace<dim>::StaggeredSpace(const PatchGrid<dim> &grid,
-                                      const BoundaryKinds<dim> &boundary_kinds)
+                                      const BoundaryKinds<dim> &boundary_kinds,
+                                      const std::shared_ptr<RowCache<dim>> &cache)
     : patch_grid(grid)
     , kinds(boundary_kinds)
+    , cache(cache)
     , n(grid.n_cells_per_side())
     , dofs_per_component((n + 1) * Utilities::fixed_power<dim - 1>(n))
+    , interface_faces(grid, n_dofs_per_patch())
   {
+    cache->update(grid);
     build_copies();
     build_interfaces();
     build_boundary();
@@ -655,80 +488,101 @@ namespace mitre::grid
   void StaggeredSpace<dim>::build_interfaces()
   {
     for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
-      for (unsigned int side = 0; side < 2 * dim; ++side)
-        {
+      {
+        for (unsigned int side = 0; side < 2 * dim; ++side)
           if (patch_grid.neighbor(p, side) == Neighbor::finer)
             coarse_interface_sides.emplace_back(p, side);
-          if (patch_grid.neighbor(p, side) != Neighbor::coarser)
-            continue;
+        cache->append_to(
+          interface_faces,
+          p,
+          RowKind::interface_faces,
+          [&](const unsigned int direction) -> std::shared_ptr<const PatchRows<dim>> {
+            Index offset{};
+            for (unsigned int side = 0; side < 2 * dim; ++side)
+              {
+                offset[side / 2] = (side % 2 == 0 ? -1 : 1);
+                if (direction == Direction<dim>::number(offset) &&
+                    patch_grid.neighbor(p, side) == Neighbor::coarser)
+                  return interface_rows(p, side);
+                offset[side / 2] = 0;
+              }
+            return nullptr;
+          });
+        interface_faces.finish_patch();
+      }
+  }
 
-          const Patch<dim> &patch = patch_grid.patch(p);
-          const unsigned int c    = side / 2;
-          const unsigned int s    = stride(c, c);
-          const int plane         = (side % 2 == 0 ? 0 : n);
-          for (unsigned int i = 0; i < Utilities::fixed_power<dim - 1>(n); ++i)
+
+  template <int dim>
+  std::shared_ptr<const PatchRows<dim>>
+  StaggeredSpace<dim>::interface_rows(const unsigned int p, const unsigned int side) const
+  {
+    PatchRowsBuilder<dim> builder(patch_grid, p, n_dofs_per_patch(), 1);
+    const Patch<dim> &patch = patch_grid.patch(p);
+    const unsigned int c    = side / 2;
+    const unsigned int s    = stride(c, c);
+    const int plane         = (side % 2 == 0 ? 0 : n);
+    for (unsigned int i = 0; i < Utilities::fixed_power<dim - 1>(n); ++i)
+      {
+        // index of the fine face on the patch and of the coarse face that has it
+        Index fine, coarse;
+        unsigned int rest = i;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            if (d == c)
+              fine[d] = plane;
+            else
+              {
+                fine[d] = rest % n;
+                rest /= n;
+              }
+            coarse[d] = (patch.index[d] * static_cast<int>(n) + fine[d]) / 2;
+          }
+
+        const auto value_at = [&](const Index &index, LinearCombination<dim> &value) {
+          for (unsigned int d = 0; d < dim; ++d)
+            if (!patch_grid.periodic()[d] && d != c &&
+                (index[d] < 0 || index[d] >= patch_grid.n_patches(patch.level - 1, d) *
+                                               static_cast<int>(n)))
+              return false;
+          return combination(
+            patch.level - 1, c, index, BoundaryExtension::reflection, false, value);
+        };
+
+        LinearCombination<dim> row, center;
+        const bool found = value_at(coarse, center);
+        AssertThrow(found, ExcInternalError());
+        row.add(center, 1.);
+        for (unsigned int d = 0; d < dim; ++d)
+          if (d != c)
             {
-              // index of the fine face on the patch and of the coarse face that has it
-              Index fine, coarse;
-              unsigned int rest = i;
-              for (unsigned int d = 0; d < dim; ++d)
+              const double offset = (fine[d] % 2 == 0 ? -0.25 : 0.25);
+              LinearCombination<dim> below, above;
+              Index index          = coarse;
+              index[d]             = coarse[d] - 1;
+              const bool has_below = value_at(index, below);
+              index[d]             = coarse[d] + 1;
+              const bool has_above = value_at(index, above);
+              if (has_below && has_above)
                 {
-                  if (d == c)
-                    fine[d] = plane;
-                  else
-                    {
-                      fine[d] = rest % n;
-                      rest /= n;
-                    }
-                  coarse[d] = (patch.index[d] * static_cast<int>(n) + fine[d]) / 2;
+                  row.add(above, 0.5 * offset);
+                  row.add(below, -0.5 * offset);
                 }
-
-              const auto value_at = [&](const Index &index,
-                                        LinearCombination<dim> &value) {
-                for (unsigned int d = 0; d < dim; ++d)
-                  if (!patch_grid.periodic()[d] && d != c &&
-                      (index[d] < 0 ||
-                       index[d] >=
-                         patch_grid.n_patches(patch.level - 1, d) * static_cast<int>(n)))
-                    return false;
-                return combination(
-                  patch.level - 1, c, index, BoundaryExtension::reflection, false, value);
-              };
-
-              LinearCombination<dim> row, center;
-              const bool found = value_at(coarse, center);
-              AssertThrow(found, ExcInternalError());
-              row.add(center, 1.);
-              for (unsigned int d = 0; d < dim; ++d)
-                if (d != c)
-                  {
-                    const double offset = (fine[d] % 2 == 0 ? -0.25 : 0.25);
-                    LinearCombination<dim> below, above;
-                    Index index          = coarse;
-                    index[d]             = coarse[d] - 1;
-                    const bool has_below = value_at(index, below);
-                    index[d]             = coarse[d] + 1;
-                    const bool has_above = value_at(index, above);
-                    if (has_below && has_above)
-                      {
-                        row.add(above, 0.5 * offset);
-                        row.add(below, -0.5 * offset);
-                      }
-                    else if (has_above)
-                      {
-                        row.add(above, offset);
-                        row.add(center, -offset);
-                      }
-                    else if (has_below)
-                      {
-                        row.add(center, offset);
-                        row.add(below, -offset);
-                      }
-                  }
-              const unsigned int in_plane = (i / s) * s * (n + 1) + i % s;
-              interface_faces.append(first_dof(p, c) + plane * s + in_plane, row);
+              else if (has_above)
+                {
+                  row.add(above, offset);
+                  row.add(center, -offset);
+                }
+              else if (has_below)
+                {
+                  row.add(center, offset);
+                  row.add(below, -offset);
+                }
             }
-        }
+        const unsigned int in_plane = (i / s) * s * (n + 1) + i % s;
+        builder.append(0, c * dofs_per_component + plane * s + in_plane, row);
+      }
+    return builder.finish();
   }
 
 
@@ -800,7 +654,7 @@ namespace mitre::grid
   template <int dim>
   void StaggeredSpace<dim>::finalize(std::vector<types::global_dof_index> &&ghosts)
   {
-    interface_faces.collect_ghosts(owned_range(), ghosts);
+    interface_faces.collect_ghosts(ghosts);
     for (const auto &copy : remote_copies)
       ghosts.push_back(copy.second);
 
@@ -872,8 +726,19 @@ namespace mitre::grid
   void StaggeredSpace<dim>::follow_interfaces(VectorType &u) const
   {
     double *values = u.begin();
-    for (unsigned int row = 0; row < interface_faces.n_rows(); ++row)
-      values[interface_faces.destination(row)] = interface_faces.apply(row, values);
+    for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
+      {
+        double *own = values + first_dof(p, 0);
+        for (unsigned int part = interface_faces.begin(p); part < interface_faces.end(p);
+             ++part)
+          interface_faces.apply(
+            part,
+            0,
+            values,
+            nullptr,
+            false,
+            [own](const unsigned int face, const double sum) { own[face] = sum; });
+      }
   }
 
 
@@ -907,12 +772,17 @@ namespace mitre::grid
     if (!patch_grid.has_coarse_fine_interfaces())
       return;
     double *values = f.begin();
-    for (unsigned int row = 0; row < interface_faces.n_rows(); ++row)
+    for (unsigned int p = 0; p < patch_grid.n_owned_patches(); ++p)
       {
-        const double value = values[interface_faces.destination(row)];
-        values[interface_faces.destination(row)] = 0.;
-        if (value != 0.)
-          interface_faces.apply_transpose(row, value, values);
+        double *own = values + first_dof(p, 0);
+        for (unsigned int part = interface_faces.begin(p); part < interface_faces.end(p);
+             ++part)
+          interface_faces.apply_transpose(
+            part, 0, values, nullptr, [own](const unsigned int face) {
+              const double value = own[face];
+              own[face]          = 0.;
+              return value;
+            });
       }
     f.compress(VectorOperation::add);
   }
@@ -979,14 +849,6 @@ namespace mitre::grid
   }
 
 
-  template struct LinearCombination<2>;
-  template struct LinearCombination<3>;
-  template class CoarseValues<2>;
-  template class CoarseValues<3>;
-  template class CombinationSum<2>;
-  template class CombinationSum<3>;
-  template class CombinationTable<2>;
-  template class CombinationTable<3>;
   template class StaggeredSpace<2>;
   template class StaggeredSpace<3>;
 } // namespace mitre::grid

@@ -11,28 +11,6 @@ namespace mitre::grid
 {
   using namespace dealii;
 
-  namespace
-  {
-    template <int dim>
-    constexpr unsigned int n_directions()
-    {
-      return dim == 2 ? 9 : 27;
-    }
-
-    template <int dim>
-    std::array<int, dim> direction_offset(unsigned int direction)
-    {
-      std::array<int, dim> offset;
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          offset[d] = static_cast<int>(direction % 3) - 1;
-          direction /= 3;
-        }
-      return offset;
-    }
-  } // namespace
-
-
   template <int dim>
   VelocityHalo<dim>::VelocityHalo(const StaggeredSpace<dim> &space,
                                   const unsigned int width,
@@ -43,6 +21,7 @@ namespace mitre::grid
     , g(width)
     , halo_shape(shape)
     , extension(extension)
+    , rows(space.grid(), space.n_dofs_per_patch())
   {
     AssertThrow(2 * g <= n,
                 ExcMessage("A halo of " + std::to_string(g) +
@@ -77,11 +56,11 @@ namespace mitre::grid
   {
     const PatchGrid<dim> &grid = space.grid();
 
-    shapes.resize(n_directions<dim>());
-    for (unsigned int direction = 0; direction < n_directions<dim>(); ++direction)
+    shapes.resize(Direction<dim>::count);
+    for (unsigned int direction = 0; direction < Direction<dim>::count; ++direction)
       for (unsigned int c = 0; c < dim; ++c)
         {
-          const auto offset     = direction_offset<dim>(direction);
+          const auto offset     = Direction<dim>::offset(direction);
           BlockShape &shape     = shapes[direction][c];
           shape.size            = {{1, 1, 1}};
           shape.from            = 0;
@@ -115,124 +94,159 @@ namespace mitre::grid
             }
         }
 
-    block_starts                     = {0};
-    single_starts                    = {0};
-    row_starts                       = {0};
-    auxiliary_starts                 = {0};
-    const unsigned int own_direction = n_directions<dim>() / 2;
+    block_starts  = {0};
+    single_starts = {0};
+    // width, shape and extension as a number
+    const unsigned int kind = RowKind::halos + static_cast<unsigned int>(extension) +
+                              2 * (static_cast<unsigned int>(halo_shape) + 2 * g);
+
+    std::vector<std::pair<unsigned int, unsigned int>> from_ghosts;
+    for (unsigned int p = 0; p < grid.n_owned_patches(); ++p)
+      {
+        from_ghosts.clear();
+        for (unsigned int direction = 0; direction < Direction<dim>::count; ++direction)
+          {
+            if (!has_neighbor(direction))
+              continue;
+            const unsigned int q =
+              grid.neighbor_patch(p, Direction<dim>::offset(direction));
+            if (q < grid.n_owned_patches())
+              blocks.push_back({q, static_cast<unsigned short int>(direction)});
+            else if (q != numbers::invalid_unsigned_int)
+              from_ghosts.emplace_back(direction, q);
+          }
+        block_starts.push_back(blocks.size());
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            for (const auto &[direction, q] : from_ghosts)
+              {
+                const types::global_dof_index first =
+                  grid.patch(q).global_id * space.n_dofs_per_patch() +
+                  c * space.n_dofs_per_component();
+                for_each_entry(
+                  direction,
+                  c,
+                  [&](const unsigned int to, const unsigned int from, const Index &) {
+                    single_to.push_back(to);
+                    single_from_global.push_back(first + from);
+                  });
+              }
+            single_starts.push_back(single_to.size());
+          }
+        space.row_cache().append_to(rows, p, kind, [&](const unsigned int direction) {
+          return build_rows(p, direction);
+        });
+        rows.finish_patch();
+      }
+    auxiliary.resize(rows.most_rows(auxiliary_set(0)));
+  }
+
+
+  template <int dim>
+  bool VelocityHalo<dim>::has_neighbor(const unsigned int direction) const
+  {
+    unsigned int n_nonzero = 0;
+    for (const int o : Direction<dim>::offset(direction))
+      n_nonzero += (o != 0 ? 1 : 0);
+    return n_nonzero > 0 && (halo_shape == HaloShape::full || n_nonzero == 1);
+  }
+
+
+  template <int dim>
+  template <typename Operation>
+  void VelocityHalo<dim>::for_each_entry(const unsigned int direction,
+                                         const unsigned int c,
+                                         const Operation &operation) const
+  {
+    const BlockShape &shape = shapes[direction][c];
+    const auto ext          = extents(c);
+    // first entry of the block, relative to the patch's own entries
+    Index start;
+    std::size_t rest = shape.to;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        start[d] = static_cast<int>(rest % ext[d]) - static_cast<int>(g);
+        rest /= ext[d];
+      }
+    for (unsigned int k = 0; k < shape.size[2]; ++k)
+      for (unsigned int j = 0; j < shape.size[1]; ++j)
+        for (unsigned int i = 0; i < shape.size[0]; ++i)
+          {
+            const std::array<unsigned int, 3> ijk = {{i, j, k}};
+            unsigned int to = shape.to, to_stride = 1, from = shape.from;
+            Index own;
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                to += ijk[d] * to_stride;
+                to_stride *= ext[d];
+                from += ijk[d] * space.stride(c, d);
+                own[d] = start[d] + static_cast<int>(ijk[d]);
+              }
+            operation(to, from, own);
+          }
+  }
+
+
+  template <int dim>
+  std::shared_ptr<const PatchRows<dim>>
+  VelocityHalo<dim>::build_rows(const unsigned int p, const unsigned int direction) const
+  {
+    if (!has_neighbor(direction))
+      return nullptr;
+    const PatchGrid<dim> &grid = space.grid();
+    const Patch<dim> &patch    = grid.patch(p);
+    PatchRowsBuilder<dim> builder(grid, p, space.n_dofs_per_patch(), 2 * dim);
+    const bool without_leaf = grid.neighbor_patch(p, Direction<dim>::offset(direction)) ==
+                              numbers::invalid_unsigned_int;
+    const bool has_interfaces =
+      extension == BoundaryExtension::quadratic && grid.touches_other_level(p);
 
     LinearCombination<dim> row;
     CoarseValues<dim> coarse_values;
-    std::size_t most_auxiliary = 0;
-    std::vector<std::pair<unsigned int, unsigned int>> not_copied;
     std::vector<bool> on_interface(size(0), false);
-    for (unsigned int p = 0; p < grid.n_owned_patches(); ++p)
+    for (unsigned int c = 0; c < dim; ++c)
       {
-        const Patch<dim> &patch = grid.patch(p);
-        not_copied.clear();
-        for (unsigned int direction = 0; direction < n_directions<dim>(); ++direction)
+        std::vector<std::pair<unsigned int, Index>> interpolated;
+        if (has_interfaces)
+          interpolated = interface_faces(p, c, direction);
+        for (const auto &face : interpolated)
+          on_interface[face.first] = true;
+        if (without_leaf)
+          for_each_entry(
+            direction, c, [&](const unsigned int to, const unsigned int, Index index) {
+              if (on_interface[to])
+                return;
+              for (unsigned int d = 0; d < dim; ++d)
+                index[d] += patch.index[d] * static_cast<int>(n);
+              row.clear();
+              const bool found = space.combination(
+                patch.level, c, index, extension, true, row, &coarse_values);
+              AssertThrow(found, ExcInternalError());
+              builder.append(c, to, row);
+            });
+        for (const auto &[to, index] : interpolated)
           {
-            if (direction == own_direction)
-              continue;
-            const auto offset      = direction_offset<dim>(direction);
-            unsigned int n_nonzero = 0;
-            for (const int o : offset)
-              n_nonzero += (o != 0 ? 1 : 0);
-            if (halo_shape == HaloShape::star && n_nonzero > 1)
-              continue;
-
-            const unsigned int q = grid.neighbor_patch(p, offset);
-            if (q < grid.n_owned_patches())
-              blocks.push_back({q, static_cast<unsigned short int>(direction)});
-            else
-              not_copied.emplace_back(direction, q);
+            row.clear();
+            const bool found = space.interface_value(
+              patch.level, c, index, extension, row, &coarse_values);
+            AssertThrow(found, ExcInternalError());
+            builder.append(c, to, row);
+            on_interface[to] = false;
           }
-        block_starts.push_back(blocks.size());
-
-        const bool has_interfaces =
-          extension == BoundaryExtension::quadratic && grid.touches_other_level(p);
-        for (unsigned int c = 0; c < dim; ++c)
-          {
-            std::vector<std::pair<unsigned int, Index>> interpolated;
-            if (has_interfaces)
-              interpolated = interface_faces(p, c);
-            for (const auto &face : interpolated)
-              on_interface[face.first] = true;
-
-            const auto ext = extents(c);
-            for (const auto &[direction, q] : not_copied)
-              {
-                const BlockShape &shape = shapes[direction][c];
-                // first entry of the block, relative to the patch's own entries
-                Index start;
-                std::size_t rest = shape.to;
-                for (unsigned int d = 0; d < dim; ++d)
-                  {
-                    start[d] = static_cast<int>(rest % ext[d]) - static_cast<int>(g);
-                    rest /= ext[d];
-                  }
-                for (unsigned int k = 0; k < shape.size[2]; ++k)
-                  for (unsigned int j = 0; j < shape.size[1]; ++j)
-                    for (unsigned int i = 0; i < shape.size[0]; ++i)
-                      {
-                        const std::array<unsigned int, 3> ijk = {{i, j, k}};
-                        unsigned int to = shape.to, to_stride = 1, from = shape.from;
-                        Index index;
-                        for (unsigned int d = 0; d < dim; ++d)
-                          {
-                            to += ijk[d] * to_stride;
-                            to_stride *= ext[d];
-                            from += ijk[d] * space.stride(c, d);
-                            index[d] = patch.index[d] * static_cast<int>(n) + start[d] +
-                                       static_cast<int>(ijk[d]);
-                          }
-                        if (q != numbers::invalid_unsigned_int)
-                          {
-                            single_to.push_back(to);
-                            single_from_global.push_back(
-                              grid.patch(q).global_id * space.n_dofs_per_patch() +
-                              c * space.n_dofs_per_component() + from);
-                          }
-                        else if (!on_interface[to])
-                          {
-                            row.clear();
-                            const bool found = space.combination(patch.level,
-                                                                 c,
-                                                                 index,
-                                                                 extension,
-                                                                 true,
-                                                                 row,
-                                                                 &coarse_values);
-                            AssertThrow(found, ExcInternalError());
-                            rows.append(to, row);
-                          }
-                      }
-              }
-            for (const auto &[to, index] : interpolated)
-              {
-                row.clear();
-                const bool found = space.interface_value(
-                  patch.level, c, index, extension, row, &coarse_values);
-                AssertThrow(found, ExcInternalError());
-                rows.append(to, row);
-                on_interface[to] = false;
-              }
-            single_starts.push_back(single_to.size());
-            row_starts.push_back(rows.n_rows());
-            for (LinearCombination<dim> value : coarse_values.values())
-              auxiliary_rows.append(0, value);
-            auxiliary_starts.push_back(auxiliary_rows.n_rows());
-            most_auxiliary = std::max(most_auxiliary, coarse_values.values().size());
-            coarse_values.clear();
-          }
+        unsigned int number = 0;
+        for (LinearCombination<dim> value : coarse_values.values())
+          builder.append(auxiliary_set(c), number++, value);
+        coarse_values.clear();
       }
-    auxiliary.resize(most_auxiliary);
+    return builder.finish();
   }
 
 
   template <int dim>
   std::vector<std::pair<unsigned int, typename VelocityHalo<dim>::Index>>
-  VelocityHalo<dim>::interface_faces(const unsigned int p, const unsigned int c) const
+  VelocityHalo<dim>::interface_faces(const unsigned int p,
+                                     const unsigned int c,
+                                     const unsigned int direction) const
   {
     const PatchGrid<dim> &grid = space.grid();
     const Patch<dim> &patch    = grid.patch(p);
@@ -245,7 +259,7 @@ namespace mitre::grid
       for (unsigned int i = 0; i < Utilities::fixed_power<dim - 1>(n + 2 * g); ++i)
         {
           unsigned int to = 0, to_stride = 1, rest = i, n_outside = 0;
-          Index index;
+          Index index, beyond{};
           for (unsigned int d = 0; d < dim; ++d)
             {
               int own = plane;
@@ -253,13 +267,17 @@ namespace mitre::grid
                 {
                   own = static_cast<int>(rest % (n + 2 * g)) - static_cast<int>(g);
                   rest /= n + 2 * g;
-                  n_outside += (own < 0 || own >= size ? 1 : 0);
+                  beyond[d] = (own < 0 ? -1 : own >= size ? 1 : 0);
+                  n_outside += (beyond[d] != 0 ? 1 : 0);
                 }
               to += (own + static_cast<int>(g)) * to_stride;
               to_stride *= ext[d];
               index[d] = patch.index[d] * size + own;
             }
-          if (n_outside > (halo_shape == HaloShape::star ? 1 : dim))
+          if (n_outside == 0)
+            beyond[c] = (plane == 0 ? -1 : 1);
+          if (n_outside > (halo_shape == HaloShape::star ? 1 : dim) ||
+              Direction<dim>::number(beyond) != direction)
             continue;
           Index lower = index;
           lower[c] -= 1;
@@ -277,8 +295,7 @@ namespace mitre::grid
   void VelocityHalo<dim>::add_ghosts(std::vector<types::global_dof_index> &ghosts) const
   {
     ghosts.insert(ghosts.end(), single_from_global.begin(), single_from_global.end());
-    rows.collect_ghosts(space.owned_range(), ghosts);
-    auxiliary_rows.collect_ghosts(space.owned_range(), ghosts);
+    rows.collect_ghosts(ghosts);
   }
 
 
@@ -293,7 +310,6 @@ namespace mitre::grid
     single_from_global.clear();
     single_from_global.shrink_to_fit();
     rows.localize(*partitioner);
-    auxiliary_rows.localize(*partitioner);
   }
 
 
@@ -329,7 +345,6 @@ namespace mitre::grid
     const std::function<double(const BoundaryTerm<dim> &)> &prescribed)
   {
     rows.set_boundary_values(prescribed);
-    auxiliary_rows.set_boundary_values(prescribed);
   }
 
 
@@ -366,7 +381,7 @@ namespace mitre::grid
   {
     const double *values = u.begin();
     copy_block(
-      shapes[n_directions<dim>() / 2][c], c, values + space.first_dof(p, c), padded);
+      shapes[Direction<dim>::center][c], c, values + space.first_dof(p, c), padded);
     for (unsigned int b = block_starts[p]; b < block_starts[p + 1]; ++b)
       copy_block(shapes[blocks[b].direction][c],
                  c,
@@ -375,16 +390,25 @@ namespace mitre::grid
     const std::size_t pc = static_cast<std::size_t>(p) * dim + c;
     for (std::size_t i = single_starts[pc]; i < single_starts[pc + 1]; ++i)
       padded[single_to[i]] = values[single_from[i]];
-    const unsigned int first = auxiliary_starts[pc];
-    for (unsigned int row = first; row < auxiliary_starts[pc + 1]; ++row)
-      auxiliary[row - first] =
-        auxiliary_rows.apply(row, values) +
-        (with_boundary_values ? auxiliary_rows.boundary_value(row) : 0.);
-    for (unsigned int row = row_starts[pc]; row < row_starts[pc + 1]; ++row)
-      padded[rows.destination(row)] = rows.apply(row, values, auxiliary.data());
-    if (with_boundary_values)
-      for (unsigned int row = row_starts[pc]; row < row_starts[pc + 1]; ++row)
-        padded[rows.destination(row)] += rows.boundary_value(row);
+    double *to = auxiliary.data();
+    for (unsigned int part = rows.begin(p); part < rows.end(p); ++part)
+      {
+        rows.apply(
+          part,
+          auxiliary_set(c),
+          values,
+          nullptr,
+          with_boundary_values,
+          [to](const unsigned int number, const double sum) { to[number] = sum; });
+        rows.apply(part,
+                   c,
+                   values,
+                   to,
+                   with_boundary_values,
+                   [padded](const unsigned int destination, const double sum) {
+                     padded[destination] = sum;
+                   });
+      }
   }
 
 
@@ -410,22 +434,26 @@ namespace mitre::grid
             from[shape.from + i + j * from_y + k * from_z] +=
               padded[shape.to + i + j * to_y + k * to_z];
     };
-    add_block(shapes[n_directions<dim>() / 2][c], values + space.first_dof(p, c));
+    add_block(shapes[Direction<dim>::center][c], values + space.first_dof(p, c));
     for (unsigned int b = block_starts[p]; b < block_starts[p + 1]; ++b)
       add_block(shapes[blocks[b].direction][c],
                 values + space.first_dof(blocks[b].patch, c));
     const std::size_t pc = static_cast<std::size_t>(p) * dim + c;
     for (std::size_t i = single_starts[pc]; i < single_starts[pc + 1]; ++i)
       values[single_from[i]] += padded[single_to[i]];
-    const unsigned int first = auxiliary_starts[pc], last = auxiliary_starts[pc + 1];
-    std::fill_n(auxiliary.begin(), last - first, 0.);
-    for (unsigned int row = row_starts[pc]; row < row_starts[pc + 1]; ++row)
-      if (padded[rows.destination(row)] != 0.)
+    const double *from = auxiliary.data();
+    for (unsigned int part = rows.begin(p); part < rows.end(p); ++part)
+      {
+        std::fill_n(auxiliary.begin(), rows.n_rows(part, auxiliary_set(c)), 0.);
         rows.apply_transpose(
-          row, padded[rows.destination(row)], values, auxiliary.data());
-    for (unsigned int row = first; row < last; ++row)
-      if (auxiliary[row - first] != 0.)
-        auxiliary_rows.apply_transpose(row, auxiliary[row - first], values);
+          part, c, values, auxiliary.data(), [padded](const unsigned int destination) {
+            return padded[destination];
+          });
+        rows.apply_transpose(
+          part, auxiliary_set(c), values, nullptr, [from](const unsigned int number) {
+            return from[number];
+          });
+      }
   }
 
 
@@ -448,9 +476,8 @@ namespace mitre::grid
   template <int dim>
   std::size_t VelocityHalo<dim>::memory_consumption() const
   {
-    return rows.memory_consumption() + auxiliary_rows.memory_consumption() +
-           single_to.size() * 8 + blocks.size() * 8 + imported.memory_consumption() +
-           accumulator.memory_consumption();
+    return rows.memory_consumption() + single_to.size() * 8 + blocks.size() * 8 +
+           imported.memory_consumption() + accumulator.memory_consumption();
   }
 
 

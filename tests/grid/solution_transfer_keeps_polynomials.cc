@@ -51,21 +51,31 @@ struct State
   void change(const std::function<int(const BoundingBox<dim> &)> &wanted_level)
   {
     std::unique_ptr<grid::SolutionTransfer<dim>> transfer;
+    std::unique_ptr<grid::VelocityHalo<dim>> halo;
     patch_grid.adapt(
       wanted_level,
       [&] {
+        halo = std::make_unique<grid::VelocityHalo<dim>>(
+          *space, 1, grid::HaloShape::star, grid::BoundaryExtension::reflection);
+        halo->make_own_partitioner();
         transfer = std::make_unique<grid::SolutionTransfer<dim>>(
           patch_grid,
           *space,
+          *halo,
           operators->pressure_halo(),
-          std::vector<const grid::VectorType *>{&u},
-          std::vector<const grid::VectorType *>{&p});
+          std::vector<grid::VectorType *>{&u},
+          std::vector<grid::VectorType *>{&p});
       },
-      [&] {
-        const auto old_space     = std::move(space);
-        const auto old_operators = std::move(operators);
-        setup();
-        transfer->finish(*space, {&u}, {&p});
+      [&](const bool changed) {
+        if (changed)
+          {
+            const auto old_space     = std::move(space);
+            const auto old_operators = std::move(operators);
+            setup();
+            transfer->finish(*space, {&u}, {&p});
+          }
+        else
+          transfer->give_back();
         transfer.reset();
       });
   }

@@ -66,6 +66,12 @@ namespace mitre::fluid
           const grid::VectorType &u,
           const std::function<double(const grid::BoundaryTerm<dim> &)> &prescribed = {});
 
+    /// The halo that it reads velocities with: three layers across the sides.
+    grid::VelocityHalo<dim> &velocity_halo()
+    {
+      return halo;
+    }
+
   private:
     template <AdvectionScheme scheme>
     void apply_scheme(grid::VectorType &dst,

@@ -1,6 +1,7 @@
 #ifndef mitre_fluid_navier_stokes_h
 #define mitre_fluid_navier_stokes_h
 
+#include <array>
 #include <functional>
 #include <memory>
 
@@ -134,7 +135,13 @@ namespace mitre::fluid
     }
 
   private:
-    void setup();
+    void setup_operators();
+    void setup_solver();
+    /// The vectors that hold nothing between two steps.
+    std::array<grid::VectorType *, 5> scratch_velocities()
+    {
+      return {{&u_new, &advection_new, &provisional, &rhs, &work}};
+    }
     void set_time_step(const double dt);
     void set_fixed_faces(grid::VectorType &velocity, const double time) const;
     std::function<double(const grid::BoundaryTerm<dim> &)>
@@ -155,6 +162,8 @@ namespace mitre::fluid
     const FluidParameters parameters;
     const bool velocities_zero;
 
+    const std::shared_ptr<grid::RowCache<dim>> row_cache =
+      std::make_shared<grid::RowCache<dim>>();
     std::unique_ptr<grid::StaggeredSpace<dim>> velocity_space;
     std::unique_ptr<StokesOperators<dim>> stokes_operators;
     std::unique_ptr<StokesSolver<dim>> stokes_solver;

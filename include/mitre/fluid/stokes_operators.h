@@ -149,17 +149,15 @@ namespace mitre::fluid
     grid::CellHalo<dim> cell_halo;
     mutable grid::VectorType interface_forces;
 
-    /// For each row of the interface table: the fine cell at the face, and the signed
-    /// area that its pressure acts on.
-    std::vector<std::pair<unsigned int, double>> interface_cells;
-    /// The same for the coarse faces of interfaces: face, cell, signed area.
-    struct CoarseFace
+    /// Faces on coarse-fine interfaces, of both sides: the cell of the same patch that
+    /// touches them, and the signed area that its pressure acts on.
+    struct InterfaceFace
     {
       std::size_t dof;
       unsigned int cell;
       double area;
     };
-    std::vector<CoarseFace> coarse_faces;
+    std::vector<InterfaceFace> interface_faces;
     void set_interface_forces(const grid::VectorType &pressure) const;
     /// Masters that forces on interfaces reach, and copies that hand them on.
     std::vector<std::size_t> interface_masters;

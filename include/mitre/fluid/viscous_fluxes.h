@@ -33,7 +33,7 @@ namespace mitre::fluid
     /// Entries of other ranks that the rows read.
     void add_ghosts(std::vector<dealii::types::global_dof_index> &ghosts) const
     {
-      rows.collect_ghosts(space.owned_range(), ghosts);
+      rows.collect_ghosts(ghosts);
     }
 
     /// Uses vectors with this partitioner from now on.
@@ -93,6 +93,9 @@ namespace mitre::fluid
                           const double factor,
                           Row &row) const;
 
+    std::shared_ptr<const grid::PatchRows<dim>>
+    build_rows(const unsigned int p, const unsigned int direction) const;
+
     bool touches_finer(const unsigned int p, const unsigned int c, const Index &i) const;
 
     /// Whether a face of patch @p p has a row.
@@ -104,7 +107,7 @@ namespace mitre::fluid
 
     const grid::StaggeredSpace<dim> &space;
     const grid::PatchGrid<dim> &patch_grid;
-    grid::CombinationTable<dim> rows;
+    grid::RowTable<dim> rows;
   };
 } // namespace mitre::fluid
 

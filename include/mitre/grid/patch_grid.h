@@ -162,6 +162,10 @@ namespace mitre::grid
     /// level.
     bool touches_other_level(const unsigned int p) const;
 
+    /// The local patch, owned or ghost, with this number among all leaves; it must be
+    /// one.
+    unsigned int local_patch(const dealii::types::global_dof_index global_id) const;
+
     /// The local patch with this level and position; periodic directions wrap.
     unsigned int find(const int level, Index index) const;
 
@@ -241,12 +245,12 @@ namespace mitre::grid
      * Refines and coarsens until the level of each leaf is what @p wanted_level asks
      * for (it is given the box of a leaf and returns a level; limits are applied),
      * as far as the balance between neighbours allows. Before each change
-     * @p before_change is called, after it @p after_change. Returns whether anything
-     * changed.
+     * @p before_change is called, after it @p after_change, with false if the balance has
+     * undone all of it. Returns whether anything changed.
      */
     bool adapt(const std::function<int(const dealii::BoundingBox<dim> &)> &wanted_level,
-               const std::function<void()> &before_change = {},
-               const std::function<void()> &after_change  = {});
+               const std::function<void()> &before_change          = {},
+               const std::function<void(const bool)> &after_change = {});
 
     /// The leaves of this rank, in the order of its patches.
     std::vector<Leaf> owned_leaves() const;

@@ -5,8 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include <mitre/grid/hash_map.h>
+#include <mitre/grid/linear_combination.h>
 #include <mitre/grid/patch_grid.h>
+#include <mitre/grid/patch_rows.h>
 #include <mitre/grid/types.h>
 
 namespace mitre::grid
@@ -31,241 +32,11 @@ namespace mitre::grid
   using BoundaryKinds =
     std::function<BoundaryInfo(const unsigned int side, const dealii::Point<dim> &x)>;
 
-  /// weight * (velocity component that is prescribed at x).
-  template <int dim>
-  struct BoundaryTerm
-  {
-    dealii::Point<dim> x;
-    unsigned int component;
-    unsigned int condition;
-    double weight;
-  };
-
-  /// A sum of weighted unknowns, prescribed boundary values, and auxiliary values
-  /// (CoarseValues), if these are in use.
-  template <int dim>
-  struct LinearCombination
-  {
-    std::vector<std::pair<dealii::types::global_dof_index, double>> entries;
-    std::vector<std::pair<unsigned int, double>> auxiliary;
-    std::vector<BoundaryTerm<dim>> boundary;
-
-    /// Whether an unknown may stand in more than one of the entries.
-    bool repeats = false;
-
-    void add(const LinearCombination &other, const double factor);
-
-    /// One entry an unknown, in ascending order.
-    void merge();
-
-    /// Nothing, but the memory is kept.
-    void clear();
-  };
-
-
-  /**
-   * The values of coarser leaves that interpolation to finer ones has used so far, so
-   * that each is sought once. One that is not an unknown itself (but a mean of finer
-   * faces, say, or an extension by a boundary condition) gets a number, under which
-   * combinations refer to it.
-   */
-  template <int dim>
-  class CoarseValues
-  {
-  public:
-    using Index = std::array<int, dim>;
-
-    /// Where the value of a face is found.
-    struct Place
-    {
-      enum Kind : unsigned char
-      {
-        nowhere,
-        unknown,
-        auxiliary
-      } kind;
-      dealii::types::global_dof_index
-        number; ///< of the unknown or of the auxiliary value
-    };
-
-    /// @param compute fills a combination of unknowns and says whether that was possible
-    template <typename Compute>
-    const Place &find(const int level,
-                      const unsigned int c,
-                      const Index &index,
-                      const Compute &compute)
-    {
-      // positions beyond the box are negative, by less than this
-      constexpr int offset = 1024;
-      std::uint64_t key    = level * 3 + c;
-      for (unsigned int d = 0; d < dim; ++d)
-        key = (key << 19) + static_cast<std::uint64_t>(index[d] + offset);
-      const auto [place, is_new] = places.insert(key);
-      if (is_new)
-        place = locate(compute);
-      return place;
-    }
-
-    /// Auxiliary values as combinations of unknowns.
-    const std::vector<LinearCombination<dim>> &values() const
-    {
-      return auxiliary;
-    }
-
-    /// Forgets everything; numbers start with 0 again.
-    void clear();
-
-  private:
-    template <typename Compute>
-    Place locate(const Compute &compute)
-    {
-      value.clear();
-      if (!compute(value))
-        return {Place::nowhere, 0};
-      if (value.entries.size() == 1 && value.entries[0].second == 1. &&
-          value.boundary.empty())
-        return {Place::unknown, value.entries[0].first};
-      auxiliary.push_back(value);
-      return {Place::auxiliary,
-              static_cast<dealii::types::global_dof_index>(auxiliary.size() - 1)};
-    }
-
-    HashMap<Place> places;
-    std::vector<LinearCombination<dim>> auxiliary;
-    LinearCombination<dim> value;
-  };
-
-
-  /**
-   * Adds up combinations of many terms: an unknown's weight is found by hashing, which is
-   * faster than to sort all terms.
-   */
-  template <int dim>
-  class CombinationSum
-  {
-  public:
-    void add(const LinearCombination<dim> &terms, const double factor);
-
-    /// The same with the auxiliary values that @p terms refers to written out.
-    void add(const LinearCombination<dim> &terms,
-             const double factor,
-             const CoarseValues<dim> &coarse_values);
-
-    /// The sum, with one entry an unknown; starts anew from nothing.
-    void move_to(LinearCombination<dim> &sum);
-
-  private:
-    HashMap<unsigned int> numbers;
-    LinearCombination<dim> total;
-  };
-
   /// How values beyond a boundary with given velocity follow from those inside.
   enum class BoundaryExtension : unsigned char
   {
     quadratic, ///< parabola through the wall value and two values inside
     reflection ///< straight line through the wall value
-  };
-
-
-  /**
-   * Linear combinations of the entries of a distributed vector, and of auxiliary values
-   * if there are any, one a destination, stored as compressed rows.
-   */
-  template <int dim>
-  class CombinationTable
-  {
-  public:
-    /// Adds a row, which is merged if it has to be, and returns its number.
-    unsigned int append(const unsigned int destination, LinearCombination<dim> &row);
-
-    /// Global numbers of the entries that are not in [begin, end), each once at most: the
-    /// ghost entries that a partitioner must have.
-    void collect_ghosts(const std::pair<dealii::types::global_dof_index,
-                                        dealii::types::global_dof_index> &owned,
-                        std::vector<dealii::types::global_dof_index> &ghosts) const;
-
-    /// Replaces global numbers by the local ones of @p partitioner.
-    void localize(const dealii::Utilities::MPI::Partitioner &partitioner);
-
-    unsigned int n_rows() const
-    {
-      return destinations.size();
-    }
-
-    unsigned int destination(const unsigned int row) const
-    {
-      return destinations[row];
-    }
-
-    double apply(const unsigned int row, const double *values) const
-    {
-      double sum = 0.;
-      for (unsigned int k = starts[row]; k < starts[row + 1]; ++k)
-        sum += weights[k] * values[columns[k]];
-      return sum;
-    }
-
-    /// The same for rows that may refer to auxiliary values.
-    double
-    apply(const unsigned int row, const double *values, const double *auxiliary) const
-    {
-      double sum = apply(row, values);
-      for (unsigned int k = auxiliary_starts[row]; k < auxiliary_starts[row + 1]; ++k)
-        sum += auxiliary_weights[k] * auxiliary[auxiliary_columns[k]];
-      return sum;
-    }
-
-    void apply_transpose(const unsigned int row, const double value, double *values) const
-    {
-      for (unsigned int k = starts[row]; k < starts[row + 1]; ++k)
-        values[columns[k]] += weights[k] * value;
-    }
-
-    void apply_transpose(const unsigned int row,
-                         const double value,
-                         double *values,
-                         double *auxiliary) const
-    {
-      apply_transpose(row, value, values);
-      for (unsigned int k = auxiliary_starts[row]; k < auxiliary_starts[row + 1]; ++k)
-        auxiliary[auxiliary_columns[k]] += auxiliary_weights[k] * value;
-    }
-
-    /// Calls @p operation(local number, weight) for the entries of a row.
-    template <typename Operation>
-    void for_each_entry(const unsigned int row, const Operation &operation) const
-    {
-      for (unsigned int k = starts[row]; k < starts[row + 1]; ++k)
-        operation(columns[k], weights[k]);
-    }
-
-    /// Sum of the prescribed part of a row, as set by set_boundary_values().
-    double boundary_value(const unsigned int row) const
-    {
-      return boundary_values.empty() ? 0. : boundary_values[row];
-    }
-
-    /// Evaluates the prescribed values of all rows that have some.
-    void set_boundary_values(
-      const std::function<double(const BoundaryTerm<dim> &)> &prescribed);
-
-    std::size_t memory_consumption() const;
-
-  private:
-    std::vector<unsigned int> destinations;
-    std::vector<unsigned int> starts = {0};
-    std::vector<dealii::types::global_dof_index> global_columns;
-    std::vector<unsigned int> columns;
-    std::vector<double> weights;
-
-    std::vector<unsigned int> auxiliary_starts = {0};
-    std::vector<unsigned short int> auxiliary_columns;
-    std::vector<double> auxiliary_weights;
-
-    CombinationSum<dim> sum;
-
-    std::vector<std::pair<unsigned int, BoundaryTerm<dim>>> boundary_terms;
-    std::vector<double> boundary_values;
   };
 
 
@@ -293,7 +64,12 @@ namespace mitre::grid
   public:
     using Index = std::array<int, dim>;
 
-    StaggeredSpace(const PatchGrid<dim> &grid, const BoundaryKinds<dim> &boundary_kinds);
+    /// @p cache keeps rows from one grid to the next; it must belong to this box and
+    /// these boundary kinds.
+    StaggeredSpace(
+      const PatchGrid<dim> &grid,
+      const BoundaryKinds<dim> &boundary_kinds,
+      const std::shared_ptr<RowCache<dim>> &cache = std::make_shared<RowCache<dim>>());
 
     const PatchGrid<dim> &grid() const
     {
@@ -303,6 +79,12 @@ namespace mitre::grid
     const BoundaryKinds<dim> &boundary_kinds() const
     {
       return kinds;
+    }
+
+    /// Rows of weights by the leaves around a patch.
+    RowCache<dim> &row_cache() const
+    {
+      return *cache;
     }
 
     unsigned int n_dofs_per_patch() const
@@ -455,8 +237,9 @@ namespace mitre::grid
     /// Sets the entries with given velocity to zero.
     void zero_fixed_faces(VectorType &u) const;
 
-    /// Fine faces on coarse-fine interfaces and what they follow from.
-    const CombinationTable<dim> &coarse_fine_faces() const
+    /// Fine faces on coarse-fine interfaces, by their number in a patch, and what they
+    /// follow from.
+    const RowTable<dim> &coarse_fine_faces() const
     {
       return interface_faces;
     }
@@ -518,12 +301,15 @@ namespace mitre::grid
 
     void build_copies();
     void build_interfaces();
+    std::shared_ptr<const PatchRows<dim>> interface_rows(const unsigned int p,
+                                                         const unsigned int side) const;
     void build_boundary();
     void copy_from_masters(VectorType &u) const;
     void follow_interfaces(VectorType &u) const;
 
     const PatchGrid<dim> &patch_grid;
     const BoundaryKinds<dim> kinds;
+    const std::shared_ptr<RowCache<dim>> cache;
     const unsigned int n;
     const unsigned int dofs_per_component;
 
@@ -543,7 +329,7 @@ namespace mitre::grid
     std::vector<std::pair<std::size_t, dealii::types::global_dof_index>> remote_copies;
     std::vector<unsigned int> remote_masters;
 
-    CombinationTable<dim> interface_faces;
+    RowTable<dim> interface_faces;
     std::vector<std::pair<unsigned int, unsigned int>> coarse_interface_sides;
     std::vector<BoundaryFace> fixed, open;
     VectorType master_volumes, free_inverse_volumes;

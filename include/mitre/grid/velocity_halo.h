@@ -111,11 +111,18 @@ namespace mitre::grid
 
   private:
     void build();
+    std::shared_ptr<const PatchRows<dim>> build_rows(const unsigned int p,
+                                                     const unsigned int direction) const;
+
+    bool has_neighbor(const unsigned int direction) const;
 
     /// The faces of component @p c of patch @p p, with its halo, on interfaces to coarser
-    /// leaves: entry of the padded array, and index.
+    /// leaves: entry of the padded array, and index. Those beyond the patch in @p
+    /// direction, and for sides those of the patch there, too.
     std::vector<std::pair<unsigned int, Index>>
-    interface_faces(const unsigned int p, const unsigned int c) const;
+    interface_faces(const unsigned int p,
+                    const unsigned int c,
+                    const unsigned int direction) const;
 
     const StaggeredSpace<dim> &space;
     const unsigned int n, g;
@@ -136,6 +143,15 @@ namespace mitre::grid
       std::size_t from, to;
     };
     std::vector<std::array<BlockShape, dim>> shapes;
+
+    /// Calls operation(to, from, index) for the entries of component @p c that lie beyond
+    /// the patch in a direction: their places in the padded array and in a neighbour of
+    /// the same level, and their indices relative to the patch.
+    template <typename Operation>
+    void for_each_entry(const unsigned int direction,
+                        const unsigned int c,
+                        const Operation &operation) const;
+
     void copy_block(const BlockShape &shape,
                     const unsigned int c,
                     const double *from,
@@ -144,20 +160,21 @@ namespace mitre::grid
     std::vector<unsigned int> block_starts;
     std::vector<Block> blocks;
 
-    /// Per patch and component: entries copied from ghosts, and rows of the table.
+    /// Per patch and component: entries copied from ghosts.
     std::vector<std::size_t> single_starts;
     std::vector<unsigned int> single_to;
     std::vector<dealii::types::global_dof_index> single_from_global;
     std::vector<unsigned int> single_from;
-    std::vector<unsigned int> row_starts;
-    CombinationTable<dim> rows;
 
-    /// Per patch and component: values of coarser leaves that are not unknowns
-    /// themselves, of which the rows make use, and space for those of one patch and
-    /// component.
-    std::vector<unsigned int> auxiliary_starts;
-    CombinationTable<dim> auxiliary_rows;
+    /// A set of rows for each component, and one of the values of coarser leaves
+    /// that are not unknowns themselves, to which these rows refer.
+    RowTable<dim> rows;
     mutable std::vector<double> auxiliary;
+
+    static unsigned int auxiliary_set(const unsigned int c)
+    {
+      return dim + c;
+    }
 
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
     VectorType imported, accumulator;

@@ -1,0 +1,19 @@
+#include <cstdlib>
+
+#include <mitre/base/memory.h>
+
+#ifdef __GLIBC__
+#  include <malloc.h>
+#endif
+
+namespace mitre::base
+{
+  void keep_freed_memory()
+  {
+#ifdef __GLIBC__
+    mallopt(M_MMAP_THRESHOLD, 1 << 30);
+    mallopt(M_TRIM_THRESHOLD, 1 << 30);
+    mallopt(M_TOP_PAD, 1 << 26);
+#endif
+  }
+} // namespace mitre::base
