@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <map>
 #include <sstream>
 
@@ -55,7 +56,8 @@ namespace mitre::geometry
         {"Attachment distance", &P::attachment_distance, 2.4, 0., 8., "Distance of the two attachment points in z [cm]."},
         {"Leaflet spacing", &P::leaflet_spacing, 0.1, 1e-3, 1., "Length of the fibre segments of the leaflets [cm]; half of the grid's spacing or less."},
         {"Chord spacing", &P::chord_spacing, 0.1, 1e-3, 1., "The same for the chordae between leaflets and attachment points [cm]."},
-        {"Rigid spacing", &P::rigid_spacing, 0.1, 1e-3, 1., "Distance of the nodes of the disc, and half of the size of the tube's elements [cm]."},
+        {"Rigid spacing", &P::rigid_spacing, 0.1, 1e-3, 1., "Distance of the nodes of the disc [cm]; half of the grid's spacing or less."},
+        {"Tube element size", &P::tube_element_size, 0.2, 1e-3, 10., "Of the tube [cm]."},
         {"Target stiffness", &P::target_stiffness, 1e5, 0., 1e12, "Of the target points [dyn/cm]."},
         {"Target damping", &P::target_damping, 0., 0., 1e12, "Of the target points [dyn s/cm]."},
         {"Attachment stiffness", &P::attachment_stiffness, 1e6, 0., 1e12, "Of the target points at the ends of the chordae [dyn/cm]."},
@@ -350,6 +352,7 @@ namespace mitre::geometry
     }
 
 
+    /// The disc between the annulus and the middle of the tube's wall, and the posts.
     structure::FibreNetwork<3> make_disc(const ProsthesisParameters &parameters,
                                          const ProsthesisShape &shape)
     {
@@ -359,40 +362,53 @@ namespace mitre::geometry
         0.5 * (parameters.tube_inner_diameter + parameters.tube_thickness);
       const double ds = parameters.rigid_spacing;
 
-      // From the bound edge down the posts to the annulus, then outward to the middle of
-      // the tube's wall, in rings of as many nodes as each needs.
-      const auto at = [&](const double angle, const double part) {
-        const Point3 top = shape.bound_edge(angle), foot = shape.annulus(angle);
-        Point3 rim(parameters.annulus_x, 0, 0);
-        const double polar =
-          std::atan2(foot[2] - parameters.axis_z, foot[1] - parameters.axis_y);
-        rim[1]             = parameters.axis_y + radius * std::cos(polar);
-        rim[2]             = parameters.axis_z + radius * std::sin(polar);
-        const double wall  = part < 1 ? part : 1;
-        const double plate = part < 1 ? 0 : part - 1;
-        return Point3(foot + (1 - wall) * (top - foot) + plate * (rim - foot));
+      // Nodes at most ds apart along a closed curve, but for those that have a neighbour.
+      const auto add_ring = [&](const std::function<Point3(double)> &curve) {
+        constexpr unsigned int n_samples = 2000;
+        std::vector<double> angles;
+        std::vector<Point3> points;
+        for (unsigned int i = 0; i <= n_samples; ++i)
+          {
+            angles.push_back(2 * PI * i / n_samples);
+            points.push_back(curve(angles.back()));
+          }
+        const SampledLength length(angles, points);
+        const unsigned int n = std::ceil(length.total() / ds);
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            const Point3 x = curve(length.parameter_at(double(i) / n));
+            if (std::any_of(network.nodes.begin(),
+                            network.nodes.end(),
+                            [&](const Point3 &y) { return x.distance(y) < 0.4 * ds; }))
+              continue;
+            add_target(network,
+                       network.nodes.size(),
+                       parameters.target_stiffness,
+                       parameters.target_damping);
+            network.nodes.push_back(x);
+          }
       };
-      const unsigned int n_wall  = std::ceil(parameters.post_height / ds),
-                         n_plate = std::ceil((radius - std::min(parameters.anterior_depth,
-                                                                0.5 * parameters.width)) /
-                                             ds);
-      const unsigned int n_around = std::ceil(2 * PI * radius / ds);
-      std::vector<std::vector<unsigned int>> rings;
-      for (unsigned int j = 0; j <= n_wall + n_plate; ++j)
-        {
-          const double part =
-            j < n_wall ? double(j) / n_wall : 1 + double(j - n_wall) / n_plate;
-          rings.emplace_back();
-          for (unsigned int i = 0; i < n_around; ++i)
-            {
-              rings.back().push_back(network.nodes.size());
-              network.nodes.push_back(at(2 * PI * i / n_around, part));
-              add_target(network,
-                         rings.back().back(),
-                         parameters.target_stiffness,
-                         parameters.target_damping);
-            }
-        }
+
+      // From the bound edge down the posts to the annulus, then outward in the plane.
+      // Where there is no post, or the plate is narrow, rings run together.
+      const unsigned int n_wall = std::ceil(parameters.post_height / ds);
+      for (unsigned int j = 0; j <= n_wall; ++j)
+        add_ring([&, part = n_wall > 0 ? double(j) / n_wall : 1.](const double angle) {
+          const Point3 top = shape.bound_edge(angle);
+          return Point3(top + part * (shape.annulus(angle) - top));
+        });
+      const unsigned int n_plate = std::ceil(
+        (radius - std::min(parameters.anterior_depth, parameters.posterior_depth)) / ds);
+      for (unsigned int j = 1; j <= n_plate; ++j)
+        add_ring([&, part = double(j) / n_plate](const double angle) {
+          const Point3 foot = shape.annulus(angle);
+          const double polar =
+            std::atan2(foot[2] - parameters.axis_z, foot[1] - parameters.axis_y);
+          const Point3 rim(parameters.annulus_x,
+                           parameters.axis_y + radius * std::cos(polar),
+                           parameters.axis_z + radius * std::sin(polar));
+          return Point3(foot + part * (rim - foot));
+        });
       return network;
     }
   } // namespace
@@ -534,7 +550,7 @@ namespace mitre::geometry
     tube.tube_inner_diameter = parameters.tube_inner_diameter;
     tube.tube_thickness      = parameters.tube_thickness;
     tube.tube_length         = parameters.tube_length;
-    tube.tube_element_size   = 2 * parameters.rigid_spacing;
+    tube.tube_element_size   = parameters.tube_element_size;
     tube.tube_layers         = 1;
     write_msh(build_tube(tube), folder + "/tube.msh");
 

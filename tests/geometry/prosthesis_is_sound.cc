@@ -129,6 +129,34 @@ namespace
           std::max(outside,
                    std::hypot(x[1] - parameters.axis_y, x[2] - parameters.axis_z) -
                      0.5 * (parameters.tube_inner_diameter + parameters.tube_thickness));
+    // Between the annulus and the tube, points of the disc are near a node. With nodes a
+    // spacing apart the middle of a square of four is 0.71 of it away.
+    const auto within = [&](const double y, const double z) {
+      for (int i = 0; i < 360; ++i)
+        {
+          const double angle  = i * dealii::numbers::PI / 180;
+          const Point3 on_rim = shape.annulus(angle);
+          const double polar =
+            std::atan2(on_rim[2] - parameters.axis_z, on_rim[1] - parameters.axis_y);
+          if (std::abs(
+                std::remainder(polar - std::atan2(z, y), 2 * dealii::numbers::PI)) < 0.03)
+            return std::hypot(y, z) < std::hypot(on_rim[1] - parameters.axis_y,
+                                                 on_rim[2] - parameters.axis_z);
+        }
+      return false;
+    };
+    double hole = 0;
+    for (double y = -2.9; y < 2.9; y += 0.05)
+      for (double z = -2.9; z < 2.9; z += 0.05)
+        if (std::hypot(y, z) < 2.9 && !within(y, z))
+          hole = std::max(hole,
+                          least_distance(prosthesis.disc.nodes,
+                                         Point3(parameters.annulus_x,
+                                                parameters.axis_y + y,
+                                                parameters.axis_z + z)));
+    std::cout << "no holes in the disc: " << (hole < 1.1 * parameters.rigid_spacing)
+              << std::endl;
+
     std::cout << "edge of the leaflets beside nodes of the disc: "
               << (off_disc < parameters.rigid_spacing)
               << ", inside of the tube: " << (outside < 1e-9)

@@ -44,6 +44,7 @@ namespace mitre::geometry
     double target_stiffness = 0, target_damping = 0, attachment_stiffness = 0;
 
     double tube_inner_diameter = 0, tube_thickness = 0, tube_length = 0;
+    double tube_element_size = 0;
 
     static void declare_parameters(dealii::ParameterHandler &prm);
 
