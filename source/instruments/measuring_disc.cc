@@ -10,14 +10,21 @@ namespace mitre::instruments
   template <int dim>
   void MeasuringDisc<dim>::declare_parameters(dealii::ParameterHandler &prm)
   {
-    prm.declare_entry("Axis",
-                      "x",
-                      dealii::Patterns::Selection("x|y|z"),
-                      "The disc lies across this axis.");
+    declare_cross_section(prm);
     prm.declare_entry("Position",
                       "0",
                       dealii::Patterns::Double(),
                       "Coordinate of the disc along the axis [cm].");
+  }
+
+
+  template <int dim>
+  void MeasuringDisc<dim>::declare_cross_section(dealii::ParameterHandler &prm)
+  {
+    prm.declare_entry("Axis",
+                      "x",
+                      dealii::Patterns::Selection("x|y|z"),
+                      "The disc lies across this axis.");
     prm.declare_entry("Radius",
                       "0",
                       dealii::Patterns::Double(0),
@@ -34,9 +41,17 @@ namespace mitre::instruments
   void MeasuringDisc<dim>::parse_parameters(dealii::ParameterHandler &prm,
                                             const std::string &instrument)
   {
-    axis     = parse_axis<dim>(prm.get("Axis"), instrument);
+    parse_cross_section(prm, instrument);
     position = prm.get_double("Position");
-    radius   = prm.get_double("Radius");
+  }
+
+
+  template <int dim>
+  void MeasuringDisc<dim>::parse_cross_section(dealii::ParameterHandler &prm,
+                                               const std::string &instrument)
+  {
+    axis   = parse_axis<dim>(prm.get("Axis"), instrument);
+    radius = prm.get_double("Radius");
     if (radius == 0)
       return;
 

@@ -388,19 +388,33 @@ namespace mitre::structure
 
 
   template <int dim>
+  std::vector<double>
+  FibreBody<dim>::compute_spring_tensions(const std::vector<double> &X) const
+  {
+    std::vector<double> tensions;
+    for (const Spring &spring : network_.springs)
+      tensions.push_back(tension(spring,
+                                 (vector_at<dim>(X.data(), spring.nodes[1]) -
+                                  vector_at<dim>(X.data(), spring.nodes[0]))
+                                   .norm()));
+    return tensions;
+  }
+
+
+  template <int dim>
   std::vector<double> FibreBody<dim>::compute_tensions(const std::vector<double> &X) const
   {
     const std::vector<unsigned int> &segments = this->mesh().elements;
     std::map<std::pair<unsigned int, unsigned int>, unsigned int> segment_of;
     for (unsigned int e = 0; e < this->mesh().n_elements(); ++e)
       segment_of[std::minmax(segments[2 * e], segments[2 * e + 1])] = e;
+    const std::vector<double> of_springs = compute_spring_tensions(X);
     std::vector<double> tensions(this->mesh().n_elements(), 0.);
-    for (const Spring &spring : network_.springs)
-      tensions[segment_of.at(std::minmax(spring.nodes[0], spring.nodes[1]))] +=
-        tension(spring,
-                (vector_at<dim>(X.data(), spring.nodes[1]) -
-                 vector_at<dim>(X.data(), spring.nodes[0]))
-                  .norm());
+    for (unsigned int i = 0; i < of_springs.size(); ++i)
+      {
+        const auto &nodes = network_.springs[i].nodes;
+        tensions[segment_of.at(std::minmax(nodes[0], nodes[1]))] += of_springs[i];
+      }
     return tensions;
   }
 

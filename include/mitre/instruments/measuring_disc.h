@@ -28,10 +28,14 @@ namespace mitre::instruments
     /// [cm]; 0: the whole cross-section.
     double radius = 0;
 
+    /// All of them, or all but the position.
     static void declare_parameters(dealii::ParameterHandler &prm);
+    static void declare_cross_section(dealii::ParameterHandler &prm);
 
     /// @param instrument for messages
     void parse_parameters(dealii::ParameterHandler &prm, const std::string &instrument);
+    void parse_cross_section(dealii::ParameterHandler &prm,
+                             const std::string &instrument);
 
     /// Whether @p x lies in the cylinder over the disc.
     bool contains(const dealii::Point<dim> &x) const;

@@ -10,7 +10,9 @@ namespace mitre::fluid
 {
   template <int dim>
   class NavierStokes;
-}
+  template <int dim>
+  class BoundaryConditions;
+} // namespace mitre::fluid
 
 namespace mitre::coupling
 {
@@ -49,6 +51,8 @@ namespace mitre::instruments
 
     /// How the parts meet the fluid; null if there are none.
     const coupling::FECoupling<dim> *coupling = nullptr;
+
+    const fluid::BoundaryConditions<dim> *boundary_conditions = nullptr;
 
     /// The part @p name; base::UserError, which names @p instrument, if there is none.
     const ObservedPart<dim> &find_part(const std::string &name,

@@ -101,6 +101,9 @@ namespace mitre::structure
     /// Of springs and beams.
     double compute_elastic_energy(const VectorType &X, const double t) const override;
 
+    /// The tension of each spring of network() [dyn], on all ranks. @p X as below.
+    std::vector<double> compute_spring_tensions(const std::vector<double> &X) const;
+
     /// Sum of the tensions of the springs along each segment of mesh() [dyn], on all
     /// ranks. @p X are positions by node of the mesh and component.
     std::vector<double> compute_tensions(const std::vector<double> &X) const;
