@@ -268,6 +268,8 @@ namespace mitre::simulation
     for (unsigned int i = 0; i < instrument_states.size(); ++i)
       instrument_states[i] = state.get("instrument " + std::to_string(i));
     instruments.set_state(instrument_states);
+    if (pressure_control.is_active())
+      pressure_control.set_state(state.get("pressure control [mmHg, dyn/cm^2]"));
 
     if (continues_output)
       {
@@ -362,6 +364,9 @@ namespace mitre::simulation
     set("instruments", instrument_states.size());
     for (unsigned int i = 0; i < instrument_states.size(); ++i)
       state.numbers["instrument " + std::to_string(i)] = instrument_states[i];
+
+    if (pressure_control.is_active())
+      state.numbers["pressure control [mmHg, dyn/cm^2]"] = pressure_control.state();
 
     std::string all_series;
     for (const auto &[series, frames] : output->written_frames())

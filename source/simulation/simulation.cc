@@ -1,6 +1,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <exception>
@@ -10,6 +11,7 @@
 #include <sstream>
 
 #include <mitre/base/exceptions.h>
+#include <mitre/base/nearest_name.h>
 #include <mitre/base/parameter_values.h>
 #include <mitre/base/parameters.h>
 #include <mitre/base/progress.h>
@@ -113,6 +115,10 @@ namespace mitre::simulation
     fluid::BoundaryConditions<dim>::declare_parameters(prm);
     prm.leave_subsection();
 
+    prm.enter_subsection("Pressure control");
+    PressureControl<dim>::declare_parameters(prm);
+    prm.leave_subsection();
+
     prm.enter_subsection("Structure");
     const auto part_names = base::declare_names(
       prm, "Parts", "", "Names of the parts; each has a subsection \"Part NAME\".");
@@ -132,6 +138,17 @@ namespace mitre::simulation
         else
           structure::BodyParameters<dim>::declare_parameters(prm);
         coupling::CouplingParameters::declare_parameters(prm, of_fibres);
+        prm.leave_subsection();
+      }
+    for (const std::string &name : base::declare_names(
+           prm,
+           "Ties",
+           "",
+           "Names of ties, springs between nodes of a part and another part where they "
+           "meet; each has a subsection \"Tie NAME\"."))
+      {
+        prm.enter_subsection("Tie " + name);
+        structure::Tie<dim>::declare_parameters(prm);
         prm.leave_subsection();
       }
     prm.leave_subsection();
@@ -190,6 +207,7 @@ namespace mitre::simulation
            "end\n"
            "subsection Structure\n"
            "set Parts = NAME, FIBRES\n"
+           "set Ties = NAME\n"
            "subsection Part FIBRES\n"
            "set Kind = fibres\n" +
            one_of_each(
@@ -268,6 +286,9 @@ namespace mitre::simulation
     prm.enter_subsection("Boundary conditions");
     boundary_conditions.parse_parameters(prm);
     prm.leave_subsection();
+    prm.enter_subsection("Pressure control");
+    pressure_control.parse_parameters(prm, boundary_conditions);
+    prm.leave_subsection();
 
     prm.enter_subsection("Grid");
     grid::PatchGridParameters<dim> grid_parameters;
@@ -280,6 +301,7 @@ namespace mitre::simulation
 
     prm.enter_subsection("Structure");
     read_parts(prm);
+    read_ties(prm);
     prm.leave_subsection();
     if (resumed)
       restore_positions();
@@ -386,6 +408,36 @@ namespace mitre::simulation
             part.pulled = part.X;
           }
         parts.push_back(std::move(part));
+      }
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::read_ties(ParameterHandler &prm)
+  {
+    std::vector<std::string> known;
+    for (const Part &part : parts)
+      known.push_back(part.body->name());
+    for (const std::string &name : base::parse_names(prm.get("Ties")))
+      {
+        prm.enter_subsection("Tie " + name);
+        TiedParts tied;
+        tied.tie.parse_parameters(prm, name);
+        prm.leave_subsection();
+        const auto number = [&](const std::string &part) {
+          const auto found = std::find(known.begin(), known.end(), part);
+          if (found == known.end())
+            throw base::UserError("Tie " + name + ": there is no part '" + part + "'. " +
+                                  base::suggest_name(part, known));
+          return static_cast<unsigned int>(found - known.begin());
+        };
+        tied.part = number(tied.tie.part());
+        tied.host = number(tied.tie.host());
+        if (parts[tied.part].body->is_rigid())
+          throw base::UserError("Tie " + name + ": the part " + tied.tie.part() +
+                                " is rigid; \"Part\" must name one that can move.");
+        tied.tie.reinit(parts[tied.part].body->mesh(), parts[tied.host].body->mesh());
+        ties.push_back(std::move(tied));
       }
   }
 
@@ -500,7 +552,39 @@ namespace mitre::simulation
                                          part.F);
         forces.push_back(&part.F);
       }
+    add_tie_forces(middle);
     fe_coupling->spread(forces, grid_force);
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::add_tie_forces(const bool middle)
+  {
+    for (const TiedParts &tied : ties)
+      {
+        std::array<std::vector<double>, 2> positions, forces;
+        const std::array<Part *, 2> pair = {{&parts[tied.part], &parts[tied.host]}};
+        for (unsigned int i = 0; i < 2; ++i)
+          {
+            positions[i] =
+              pair[i]->body->to_mesh_order(middle ? pair[i]->X_half : pair[i]->X);
+            forces[i].assign(positions[i].size(), 0.);
+          }
+        tied.tie.add_forces(positions[0], positions[1], forces[0], forces[1]);
+        for (unsigned int i = 0; i < 2; ++i)
+          {
+            // What holds a rigid part takes the force.
+            structure::Body<dim> &body = *pair[i]->body;
+            if (body.is_rigid())
+              continue;
+            structure::VectorType force, density;
+            body.initialize_vector(force);
+            body.initialize_vector(density);
+            body.from_mesh_order(forces[i], force);
+            body.project(density, force);
+            pair[i]->F += density;
+          }
+      }
   }
 
 
@@ -620,7 +704,8 @@ namespace mitre::simulation
   void Simulation<dim>::advance()
   {
     save_step();
-    time_step = next_time_step();
+    const double begin = current_time;
+    time_step          = next_time_step();
     if (wanted_courant_number == 0.)
       {
         step(time_step);
@@ -645,6 +730,8 @@ namespace mitre::simulation
         if (end_time - current_time < 1e-9 * time_step)
           current_time = end_time;
       }
+    if (pressure_control.is_active())
+      pressure_control.update(*fluid, begin, time_step);
 
     if (refinement.interval() > 0 && step_number % refinement.interval() == 0 &&
         patch_grid->maximum_level() > patch_grid->minimum_level() &&
@@ -661,10 +748,11 @@ namespace mitre::simulation
   instruments::Observation<dim> Simulation<dim>::observation()
   {
     instruments::Observation<dim> result;
-    result.time     = current_time;
-    result.dt       = current_time - last_measured;
-    result.fluid    = fluid.get();
-    result.coupling = parts.empty() ? nullptr : fe_coupling.get();
+    result.time                = current_time;
+    result.dt                  = current_time - last_measured;
+    result.fluid               = fluid.get();
+    result.coupling            = parts.empty() ? nullptr : fe_coupling.get();
+    result.boundary_conditions = &boundary_conditions;
     if (!parts.empty())
       set_kernel_boundary_values(current_time);
     for (const Part &part : parts)
@@ -688,10 +776,13 @@ namespace mitre::simulation
       for (const auto &constraint : part.body->constraints())
         columns.push_back(part.body->name() + " " + constraint.name +
                           " displacement [cm]");
+    for (const TiedParts &tied : ties)
+      columns.push_back(tied.tie.name() + " distance [cm]");
     for (const Part &part : parts)
       columns.push_back(part.body->name() + " point spacing [cells]");
-    for (const std::string &column : instruments.columns())
-      columns.push_back(column);
+    for (const std::vector<std::string> &more :
+         {pressure_control.columns(), instruments.columns()})
+      columns.insert(columns.end(), more.begin(), more.end());
     return columns;
   }
 
@@ -710,7 +801,13 @@ namespace mitre::simulation
       for (const double displacement : part.body->compute_constraint_displacements(
              part.force_positions(), current_time))
         values.push_back(displacement);
+    for (const TiedParts &tied : ties)
+      values.push_back(tied.tie.largest_distance(
+        parts[tied.part].body->to_mesh_order(parts[tied.part].X),
+        parts[tied.host].body->to_mesh_order(parts[tied.host].X)));
     measure_point_spacing(values);
+    values.insert(
+      values.end(), pressure_control.values().begin(), pressure_control.values().end());
     for (const double value : instruments.measure(observation()))
       values.push_back(value);
     statistics->write(values);
@@ -768,6 +865,9 @@ namespace mitre::simulation
         << " cm at the finest level " << patch_grid->maximum_level() << '\n';
     for (const Part &part : parts)
       out << "  part " << part.body->name() << ": " << part.body->description() << '\n';
+    for (const TiedParts &tied : ties)
+      out << "  tie " << tied.tie.name() << ": " << tied.tie.n_nodes() << " nodes of "
+          << tied.tie.part() << " to " << tied.tie.host() << '\n';
     if (wanted_courant_number > 0.)
       out << "  steps of at most " << largest_time_step << " s, Courant number "
           << wanted_courant_number;

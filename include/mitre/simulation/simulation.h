@@ -18,10 +18,12 @@
 #include <mitre/io/output.h>
 #include <mitre/io/statistics_file.h>
 #include <mitre/simulation/checkpoint_schedule.h>
+#include <mitre/simulation/pressure_control.h>
 #include <mitre/simulation/refinement.h>
 #include <mitre/simulation/validation.h>
 #include <mitre/structure/body.h>
 #include <mitre/structure/stable_time_step.h>
+#include <mitre/structure/tie.h>
 
 namespace mitre::simulation
 {
@@ -130,6 +132,13 @@ namespace mitre::simulation
       }
     };
 
+    /// A tie, and the numbers of its parts.
+    struct TiedParts
+    {
+      structure::Tie<dim> tie;
+      unsigned int part = 0, host = 0;
+    };
+
     /// What a step changes: to go back to when it fails.
     struct StepState
     {
@@ -170,6 +179,11 @@ namespace mitre::simulation
     void start();
     void prepare_output();
     void read_parts(dealii::ParameterHandler &prm);
+    void read_ties(dealii::ParameterHandler &prm);
+
+    /// Adds the forces of ties to the force densities of the parts; @p middle as in
+    /// spread_forces().
+    void add_tie_forces(const bool middle);
     std::function<int(const dealii::BoundingBox<dim> &)> wanted_levels();
     bool regrid();
     double next_time_step() const;
@@ -227,11 +241,13 @@ namespace mitre::simulation
     std::unique_ptr<grid::PatchGrid<dim>> patch_grid;
     Refinement<dim> refinement;
     std::vector<Part> parts;
+    std::vector<TiedParts> ties;
     std::unique_ptr<fluid::NavierStokes<dim>> fluid;
     std::unique_ptr<coupling::FECoupling<dim>> fe_coupling;
     std::unique_ptr<grid::VelocityHalo<dim>> kernel_halo;
     std::shared_ptr<coupling::RefinementMap<dim>> refinement_map;
     instruments::Instruments<dim> instruments;
+    PressureControl<dim> pressure_control;
     std::unique_ptr<io::OutputWriter<dim>> output;
     std::unique_ptr<io::StatisticsFile> statistics;
 

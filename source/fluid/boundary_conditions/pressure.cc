@@ -7,7 +7,7 @@ namespace mitre::fluid
   using namespace dealii;
 
   template <int dim>
-  void PressureCondition<dim>::declare_parameters(ParameterHandler &prm)
+  void GivenPressure<dim>::declare_parameters(ParameterHandler &prm)
   {
     prm.declare_entry(
       "Pressure",
@@ -31,6 +31,42 @@ namespace mitre::fluid
       Patterns::Selection("periodic|clamped"),
       "What holds after the end of the table: it repeats, or its last value "
       "stays.");
+  }
+
+
+  template <int dim>
+  void GivenPressure<dim>::parse_parameters(ParameterHandler &prm,
+                                            const std::string &section,
+                                            const std::string &owner)
+  {
+    expression = base::Expression<dim>(prm.get("Pressure"), section + " / Pressure");
+    table.reset();
+    const std::string file = prm.get("Table file");
+    if (!file.empty())
+      {
+        table = std::make_shared<base::TimeTable>(
+          file,
+          prm.get("Table extension") == "periodic" ? base::TimeTable::Extension::periodic
+                                                   : base::TimeTable::Extension::clamped);
+        if (prm.get("Table column").empty())
+          throw base::UserError(owner +
+                                " names a \"Table file\", but no \"Table column\".");
+        column = table->column(prm.get("Table column"));
+      }
+  }
+
+
+  template <int dim>
+  double GivenPressure<dim>::value(const Point<dim> &x, const double t) const
+  {
+    return expression.value(x, t) + (table ? table->value(column, t) : 0.);
+  }
+
+
+  template <int dim>
+  void PressureCondition<dim>::declare_parameters(ParameterHandler &prm)
+  {
+    GivenPressure<dim>::declare_parameters(prm);
     prm.declare_entry(
       "Backflow stabilisation",
       "0",
@@ -54,34 +90,23 @@ namespace mitre::fluid
   void PressureCondition<dim>::parse_parameters(ParameterHandler &prm,
                                                 const std::string &name)
   {
-    expression = base::Expression<dim>(prm.get("Pressure"),
-                                       "Boundary conditions / " + name + " / Pressure");
-    beta       = prm.get_double("Backflow stabilisation");
+    given.parse_parameters(
+      prm, "Boundary conditions / " + name, "Boundary condition \"" + name + "\"");
+    beta = prm.get_double("Backflow stabilisation");
     feedback_parameters.parse_parameters(prm);
     feedback_parameters.backflow_damping = prm.get_double("Backflow damping");
-    table.reset();
-    const std::string file = prm.get("Table file");
-    if (!file.empty())
-      {
-        table = std::make_shared<base::TimeTable>(
-          file,
-          prm.get("Table extension") == "periodic" ? base::TimeTable::Extension::periodic
-                                                   : base::TimeTable::Extension::clamped);
-        if (prm.get("Table column").empty())
-          throw base::UserError("Boundary condition \"" + name +
-                                "\" names a \"Table file\", but no \"Table column\".");
-        column = table->column(prm.get("Table column"));
-      }
   }
 
 
   template <int dim>
   double PressureCondition<dim>::pressure(const Point<dim> &x, const double t) const
   {
-    return expression.value(x, t) + (table ? table->value(column, t) : 0.);
+    return given.value(x, t) + *shift;
   }
 
 
+  template class GivenPressure<2>;
+  template class GivenPressure<3>;
   template class PressureCondition<2>;
   template class PressureCondition<3>;
 } // namespace mitre::fluid

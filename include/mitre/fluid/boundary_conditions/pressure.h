@@ -7,11 +7,35 @@
 
 namespace mitre::fluid
 {
+  /// A pressure [dyn/cm^2] that a parameter file gives: an expression of place and time,
+  /// plus a column of a table over time.
+  template <int dim>
+  class GivenPressure
+  {
+  public:
+    /// Declares "Pressure" and the table's parameters.
+    static void declare_parameters(dealii::ParameterHandler &prm);
+
+    /// @p section is that of the parameters, @p owner what they belong to, for messages.
+    void parse_parameters(dealii::ParameterHandler &prm,
+                          const std::string &section,
+                          const std::string &owner);
+
+    double value(const dealii::Point<dim> &x, const double t) const;
+
+  private:
+    base::Expression<dim> expression;
+    std::shared_ptr<base::TimeTable> table;
+    unsigned int column = 0;
+  };
+
+
   /**
    * An open boundary with a given pressure: normal traction -p and zero tangential
    * velocity. (On such a boundary the normal viscous stress vanishes, because the
    * divergence and the tangential derivatives of the tangential velocity do.) The
-   * pressure is an expression of place and time, or a column of a table over time.
+   * pressure is an expression of place and time, or a column of a table over time, and a
+   * shift that the run may change between steps.
    *
    * Backflow stabilisation lowers the pressure by beta rho/2 u_n^2 where the normal
    * velocity u_n points into the domain. For beta = 1 the kinetic energy that comes in
@@ -44,11 +68,17 @@ namespace mitre::fluid
       return feedback_parameters;
     }
 
+    /// Added to the pressure everywhere [dyn/cm^2]. It is not of the condition that the
+    /// parameters describe, but of the run that adjusts it, which only reads conditions.
+    void set_shift(const double pressure) const
+    {
+      *shift = pressure;
+    }
+
   private:
-    base::Expression<dim> expression;
-    std::shared_ptr<base::TimeTable> table;
-    unsigned int column = 0;
-    double beta         = 0.;
+    GivenPressure<dim> given;
+    std::shared_ptr<double> shift = std::make_shared<double>(0.);
+    double beta                   = 0.;
     FeedbackParameters feedback_parameters;
   };
 } // namespace mitre::fluid
