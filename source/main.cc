@@ -9,7 +9,6 @@
 #include <vector>
 
 #include <mitre/base/exceptions.h>
-#include <mitre/base/memory.h>
 #include <mitre/base/parameter_reference.h>
 #include <mitre/base/parameters.h>
 #include <mitre/simulation/simulation.h>
@@ -166,7 +165,6 @@ main(int argc, char **argv)
 {
   // A file that must not grow is an error to report, as a full disk is.
   std::signal(SIGXFSZ, SIG_IGN);
-  mitre::base::keep_freed_memory();
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const unsigned int rank  = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
   const unsigned int ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);

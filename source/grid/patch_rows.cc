@@ -11,7 +11,8 @@ namespace mitre::grid
   template <int dim>
   std::size_t PatchRows<dim>::Set::memory_consumption() const
   {
-    return 12 * (destinations.size() + columns.size()) + 10 * auxiliary_columns.size() +
+    return 12 * (destinations.size() + entries.size()) + 8 * leaves.size() +
+           10 * auxiliary_columns.size() +
            sizeof(boundary_terms[0]) * boundary_terms.size();
   }
 
@@ -46,9 +47,9 @@ namespace mitre::grid
     , n_dofs_per_patch(n_dofs_per_patch)
     , rows(std::make_shared<PatchRows<dim>>())
   {
-    AssertThrow(n_dofs_per_patch <= (1u << PatchRows<dim>::entry_bits),
-                ExcInternalError());
     rows->sets.resize(n_sets);
+    for (auto &set : rows->sets)
+      set.entry_starts = {0};
   }
 
 
@@ -66,8 +67,6 @@ namespace mitre::grid
         for (unsigned int d = 0; d < dim; ++d)
           leaf.offset[d] = other.index[d] - shifted(patch.index[d], leaf.level);
         rows->leaves.push_back(leaf);
-        AssertThrow(rows->leaves.size() < (1u << (32 - PatchRows<dim>::entry_bits)),
-                    ExcInternalError());
       }
     return entry->second;
   }
@@ -95,20 +94,38 @@ namespace mitre::grid
     for (const auto &term : row.boundary)
       to.boundary_terms.emplace_back(to.destinations.size(), term);
     to.destinations.push_back(destination);
+
+    // entries of a leaf follow each other, the leaves in the order in which they come up
+    entries.clear();
+    types::global_dof_index first = 0, last = 0; // of the last entry's leaf
+    unsigned int leaf = 0;
     for (const auto &[unknown, weight] : row.entries)
       {
-        // mostly of the same leaf as the last one
-        if (rows->leaves.empty() || unknown < last_first ||
-            unknown >= last_first + n_dofs_per_patch)
+        if (unknown < first || unknown >= last)
           {
             const types::global_dof_index global_patch = unknown / n_dofs_per_patch;
-            last_first                                 = global_patch * n_dofs_per_patch;
-            last_leaf                                  = leaf_number(global_patch);
+            first                                      = global_patch * n_dofs_per_patch;
+            last                                       = first + n_dofs_per_patch;
+            leaf                                       = leaf_number(global_patch);
           }
-        to.columns.push_back(PatchRows<dim>::column(last_leaf, unknown - last_first));
-        to.weights.push_back(weight);
+        entries.emplace_back(leaf, unknown - first, weight);
       }
-    to.starts.push_back(to.columns.size());
+    std::stable_sort(entries.begin(), entries.end(), [](const auto &a, const auto &b) {
+      return std::get<0>(a) < std::get<0>(b);
+    });
+    for (std::size_t k = 0; k < entries.size(); ++k)
+      {
+        const auto &[entry_leaf, number, weight] = entries[k];
+        if (k == 0 || entry_leaf != to.leaves.back())
+          {
+            to.leaves.push_back(entry_leaf);
+            to.entry_starts.push_back(to.entry_starts.back());
+          }
+        to.entries.push_back(number);
+        to.weights.push_back(weight);
+        ++to.entry_starts.back();
+      }
+    to.starts.push_back(to.leaves.size());
   }
 
 
@@ -172,24 +189,20 @@ namespace mitre::grid
 
   template <int dim>
   template <typename Operation>
-  void RowTable<dim>::for_each_remote_column(const Operation &operation) const
+  void RowTable<dim>::for_each_remote_entry(const Operation &operation) const
   {
     for (const unsigned int p : remote_parts)
       {
         const Part &part = parts[p];
         for (unsigned int set = 0; set < part.rows->sets.size(); ++set)
           {
-            const auto &columns = part.rows->sets[set].columns;
-            for (unsigned int k = 0; k < columns.size(); ++k)
+            const auto &rows = part.rows->sets[set];
+            for (unsigned int s = 0; s < rows.leaves.size(); ++s)
               {
-                const unsigned int q =
-                  leaf_patches[part.leaves + PatchRows<dim>::leaf_of(columns[k])];
-                operation(p,
-                          set,
-                          k,
-                          q,
-                          grid.patch(q).global_id * n_dofs_per_patch +
-                            PatchRows<dim>::entry_of(columns[k]));
+                const unsigned int q = leaf_patches[part.leaves + rows.leaves[s]];
+                for (unsigned int k = rows.entry_starts[s]; k < rows.entry_starts[s + 1];
+                     ++k)
+                  operation(p, set, k, q, rows.entries[k]);
               }
           }
       }
@@ -199,37 +212,64 @@ namespace mitre::grid
   template <int dim>
   void RowTable<dim>::collect_ghosts(std::vector<types::global_dof_index> &ghosts) const
   {
-    const std::size_t n_before = ghosts.size();
-    for_each_remote_column([&](const unsigned int,
-                               const unsigned int,
-                               const unsigned int,
-                               const unsigned int q,
-                               const types::global_dof_index entry) {
-      if (q >= grid.n_owned_patches())
-        ghosts.push_back(entry);
+    // marked by ghost leaf and entry, as each is read by many rows
+    const unsigned int n_owned = grid.n_owned_patches();
+    std::vector<char> is_read(
+      (grid.n_local_patches() - n_owned) * static_cast<std::size_t>(n_dofs_per_patch), 0);
+    for_each_remote_entry([&](const unsigned int,
+                              const unsigned int,
+                              const unsigned int,
+                              const unsigned int q,
+                              const unsigned int entry) {
+      if (q >= n_owned)
+        is_read[static_cast<std::size_t>(q - n_owned) * n_dofs_per_patch + entry] = 1;
     });
-    const auto begin = ghosts.begin() + n_before;
-    std::sort(begin, ghosts.end());
-    ghosts.erase(std::unique(begin, ghosts.end()), ghosts.end());
+    for (unsigned int q = n_owned; q < grid.n_local_patches(); ++q)
+      for (unsigned int entry = 0; entry < n_dofs_per_patch; ++entry)
+        if (is_read[static_cast<std::size_t>(q - n_owned) * n_dofs_per_patch + entry])
+          ghosts.push_back(grid.patch(q).global_id * n_dofs_per_patch + entry);
   }
 
 
   template <int dim>
   void RowTable<dim>::localize(const Utilities::MPI::Partitioner &partitioner)
   {
+    if (remote_parts.empty())
+      return;
+    // local numbers by ghost leaf and entry
+    const unsigned int n_owned = grid.n_owned_patches();
+    std::vector<unsigned int> numbers((grid.n_local_patches() - n_owned) *
+                                        static_cast<std::size_t>(n_dofs_per_patch),
+                                      dealii::numbers::invalid_unsigned_int);
+    unsigned int local = partitioner.locally_owned_size(), q = 0;
+    types::global_dof_index first = 0, last = 0; // of the leaf q
+    for (const types::global_dof_index ghost : partitioner.ghost_indices())
+      {
+        if (ghost < first || ghost >= last)
+          {
+            first = ghost / n_dofs_per_patch * n_dofs_per_patch;
+            last  = first + n_dofs_per_patch;
+            q     = grid.local_patch(ghost / n_dofs_per_patch) - n_owned;
+          }
+        numbers[static_cast<std::size_t>(q) * n_dofs_per_patch + (ghost - first)] =
+          local++;
+      }
     for (const unsigned int p : remote_parts)
       {
         Part &part = parts[p];
         part.places.resize(part.rows->sets.size());
         for (unsigned int set = 0; set < part.places.size(); ++set)
-          part.places[set].resize(part.rows->sets[set].columns.size());
+          part.places[set].resize(part.rows->sets[set].entries.size());
       }
-    for_each_remote_column([&](const unsigned int p,
-                               const unsigned int set,
-                               const unsigned int k,
-                               const unsigned int,
-                               const types::global_dof_index entry) {
-      parts[p].places[set][k] = partitioner.global_to_local(entry);
+    for_each_remote_entry([&](const unsigned int p,
+                              const unsigned int set,
+                              const unsigned int k,
+                              const unsigned int patch,
+                              const unsigned int entry) {
+      parts[p].places[set][k] =
+        patch < n_owned
+          ? patch * n_dofs_per_patch + entry
+          : numbers[static_cast<std::size_t>(patch - n_owned) * n_dofs_per_patch + entry];
     });
   }
 

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <unordered_map>
 #include <vector>
 
@@ -70,8 +71,12 @@ namespace mitre::grid
     struct Set
     {
       std::vector<unsigned int> destinations;
+
+      /// Segments of each row: entries of one leaf.
       std::vector<unsigned int> starts = {0};
-      std::vector<unsigned int> columns; ///< leaf and entry, see column()
+      std::vector<unsigned int> leaves;       ///< by segment
+      std::vector<unsigned int> entry_starts; ///< by segment, and one more at the end
+      std::vector<unsigned int> entries;      ///< numbers in the leaf
       std::vector<double> weights;
 
       std::vector<unsigned int> auxiliary_starts = {0};
@@ -87,23 +92,6 @@ namespace mitre::grid
 
       std::size_t memory_consumption() const;
     };
-
-    static constexpr unsigned int entry_bits = 20;
-
-    static unsigned int column(const unsigned int leaf, const unsigned int entry)
-    {
-      return (leaf << entry_bits) | entry;
-    }
-
-    static unsigned int leaf_of(const unsigned int column)
-    {
-      return column >> entry_bits;
-    }
-
-    static unsigned int entry_of(const unsigned int column)
-    {
-      return column & ((1u << entry_bits) - 1);
-    }
 
     std::vector<RelativeLeaf> leaves;
     std::vector<Set> sets;
@@ -140,10 +128,9 @@ namespace mitre::grid
     const unsigned int n_dofs_per_patch;
     std::shared_ptr<PatchRows<dim>> rows;
     std::unordered_map<dealii::types::global_dof_index, unsigned int> leaf_numbers;
-    /// The leaf of the last entry, and the number of its first one.
-    unsigned int last_leaf                     = 0;
-    dealii::types::global_dof_index last_first = dealii::numbers::invalid_dof_index;
     CombinationSum<dim> sum;
+    /// A row's entries: leaf, number in the leaf, weight.
+    std::vector<std::tuple<unsigned int, unsigned int, double>> entries;
   };
 
 
@@ -211,12 +198,15 @@ namespace mitre::grid
       if (with_boundary_values && !rows.boundary_terms.empty() &&
           !parts[part].boundary_values.empty())
         boundary = parts[part].boundary_values[set].data();
-      with_places(part, set, [&](const auto &place) {
+      with_leaves(part, set, [&](const auto &first, const unsigned int *entries) {
         for (unsigned int row = 0; row < rows.n_rows(); ++row)
           {
             double sum = (boundary == nullptr ? 0. : boundary[row]);
-            for (unsigned int k = rows.starts[row]; k < rows.starts[row + 1]; ++k)
-              sum += rows.weights[k] * values[place(k)];
+            for (unsigned int s = rows.starts[row]; s < rows.starts[row + 1]; ++s)
+              sum += product(rows.weights.data() + rows.entry_starts[s],
+                             entries + rows.entry_starts[s],
+                             rows.entry_starts[s + 1] - rows.entry_starts[s],
+                             values + first(s));
             for (unsigned int k = rows.auxiliary_starts[row];
                  k < rows.auxiliary_starts[row + 1];
                  ++k)
@@ -236,14 +226,19 @@ namespace mitre::grid
                          const Operation &operation) const
     {
       const Set &rows = parts[part].rows->sets[set];
-      with_places(part, set, [&](const auto &place) {
+      with_leaves(part, set, [&](const auto &first, const unsigned int *entries) {
         for (unsigned int row = 0; row < rows.n_rows(); ++row)
           {
             const double value = operation(rows.destinations[row]);
             if (value == 0.)
               continue;
-            for (unsigned int k = rows.starts[row]; k < rows.starts[row + 1]; ++k)
-              values[place(k)] += rows.weights[k] * value;
+            for (unsigned int s = rows.starts[row]; s < rows.starts[row + 1]; ++s)
+              {
+                double *leaf_values = values + first(s);
+                for (unsigned int k = rows.entry_starts[s]; k < rows.entry_starts[s + 1];
+                     ++k)
+                  leaf_values[entries[k]] += rows.weights[k] * value;
+              }
             for (unsigned int k = rows.auxiliary_starts[row];
                  k < rows.auxiliary_starts[row + 1];
                  ++k)
@@ -260,9 +255,10 @@ namespace mitre::grid
                         const Operation &operation) const
     {
       const Set &rows = parts[part].rows->sets[set];
-      with_places(part, set, [&](const auto &place) {
-        for (unsigned int k = rows.starts[row]; k < rows.starts[row + 1]; ++k)
-          operation(place(k), rows.weights[k]);
+      with_leaves(part, set, [&](const auto &first, const unsigned int *entries) {
+        for (unsigned int s = rows.starts[row]; s < rows.starts[row + 1]; ++s)
+          for (unsigned int k = rows.entry_starts[s]; k < rows.entry_starts[s + 1]; ++k)
+            operation(first(s) + entries[k], rows.weights[k]);
       });
     }
 
@@ -288,33 +284,47 @@ namespace mitre::grid
       std::vector<std::vector<double>> boundary_values;
     };
 
-    /// Calls operation(place), where place(k) is the local number of the k-th entry.
+    /// The sum of weights times values, in an order that does not make each addition wait
+    /// for the one before.
+    [[gnu::always_inline]] static double product(const double *weights,
+                                                 const unsigned int *entries,
+                                                 const unsigned int size,
+                                                 const double *values)
+    {
+      double sum[4]  = {0., 0., 0., 0.};
+      unsigned int k = 0;
+      for (; k + 4 <= size; k += 4)
+        for (unsigned int i = 0; i < 4; ++i)
+          sum[i] += weights[k + i] * values[entries[k + i]];
+      for (; k < size; ++k)
+        sum[0] += weights[k] * values[entries[k]];
+      return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+    }
+
+    /// Calls operation(first, entries), so that first(s) + entries[k] is the local number
+    /// of the k-th entry, which is in segment s.
     template <typename Operation>
-    void with_places(const unsigned int part,
+    void with_leaves(const unsigned int part,
                      const unsigned int set,
                      const Operation &operation) const
     {
       const Part &here = parts[part];
+      const Set &rows  = here.rows->sets[set];
       if (here.places.empty())
         {
-          const unsigned int *columns = here.rows->sets[set].columns.data();
-          const unsigned int *first   = first_entries.data() + here.leaves;
-          operation([columns, first](const unsigned int k) {
-            return first[PatchRows<dim>::leaf_of(columns[k])] +
-                   PatchRows<dim>::entry_of(columns[k]);
-          });
+          const unsigned int *leaves = rows.leaves.data();
+          const unsigned int *first  = first_entries.data() + here.leaves;
+          operation([leaves, first](const unsigned int s) { return first[leaves[s]]; },
+                    rows.entries.data());
         }
       else
-        {
-          const unsigned int *places = here.places[set].data();
-          operation([places](const unsigned int k) { return places[k]; });
-        }
+        operation([](const unsigned int) { return 0u; }, here.places[set].data());
     }
 
-    /// Calls operation(part, set, entry, local patch, global number) for all entries of
+    /// Calls operation(part, set, k, local patch, number in the patch) for all entries of
     /// parts that have leaves of other ranks around them.
     template <typename Operation>
-    void for_each_remote_column(const Operation &operation) const;
+    void for_each_remote_entry(const Operation &operation) const;
 
     const PatchGrid<dim> &grid;
     const unsigned int n_dofs_per_patch;

@@ -14,7 +14,6 @@
 #include <fstream>
 #include <vector>
 
-#include <mitre/base/memory.h>
 
 #include "../../fluid/exact_flows.h"
 
@@ -232,7 +231,6 @@ namespace
 int
 main(int argc, char **argv)
 {
-  base::keep_freed_memory();
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const unsigned int n_patch = argc > 1 ? std::atoi(argv[1]) : 16;
   const unsigned int n_steps = argc > 2 ? std::atoi(argv[2]) : 20;
