@@ -371,11 +371,6 @@ errors = [
          loaded("      set Type = pressure\n      set Pressure = 10\n"
                 "      set Pressure table = table.csv\n      set Pressure column = atrium\n"),
          ["load push: there is a \"Pressure table\" as well as the \"Pressure\" '10'"]),
-        ("a pressure in a unit of length",
-         dict(loaded("      set Type = pressure\n      set Pressure table = table.csv\n"
-                     "      set Pressure column = atrium\n"),
-              files={"table.csv": table.replace("mmHg", "cm")}),
-         ["table.csv", "atrium", "[cm]"]),
         ("a force that cannot be read",
          loaded("      set Type = body force\n      set Force x = 981*\n"),
          ["load push", "Force x", "981*"]),
@@ -487,7 +482,8 @@ errors = [
          ["Instrument flow: the pressure is wanted at (0.5 0.5 1.2) cm, outside"]),
         ("a disc with three coordinates across its axis",
          dict(change=[("Centre   = 0.5, 0.5", "Centre   = 0.5, 0.5, 0.5")]),
-         ["Instrument flow: Centre has 3 number(s), expected are the 2 coordinate(s)"]),
+         ["'Centre' in the subsection Instruments / Instrument flow", "'0.5, 0.5, 0.5'",
+          "but must match", "length 0...2"]),
         ("an output folder that is a file", dict(change=[("folder = run", "folder = cube.msh/run")]),
          ["Cannot make the folder cube.msh/run", "Not a directory"]),
         ("the same, found by `--validate`",
