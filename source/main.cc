@@ -1,9 +1,11 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/parameter_handler.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <iostream>
+#include <new>
 #include <string>
 #include <thread>
 #include <vector>
@@ -173,6 +175,10 @@ main(int argc, char **argv)
     {
       return run_program(argc, argv);
     }
+  catch (const std::bad_alloc &)
+    {
+      message = "There is not enough memory.";
+    }
   catch (const std::exception &error)
     {
       message = error.what();
@@ -182,10 +188,12 @@ main(int argc, char **argv)
       message = "Unknown error.";
     }
 
-  // Usually all ranks fail alike; the first then speaks for all. If only another one
-  // does, it speaks when the first has had its time.
+  // Usually all ranks fail alike; the first then speaks for all. If only others do, they
+  // speak one after the other when the first has had its time, and MPI_Abort ends those
+  // that wait.
   if (rank != 0)
-    std::this_thread::sleep_for(std::chrono::seconds(2));
+    std::this_thread::sleep_for(
+      std::chrono::milliseconds(2000 + 300 * std::min(rank - 1, 20u)));
   std::cout.flush();
   std::cerr << "\nmitre: " << message << std::endl;
   if (ranks > 1)

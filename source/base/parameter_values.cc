@@ -52,7 +52,7 @@ namespace mitre::base
             {
               std::string value = child.get<std::string>(what);
               if (*pattern == "[InputFile]" && !value.empty())
-                value += contents + sum_of_contents(value);
+                value = describe_contents(value);
               for (char &c : value)
                 if (c == '\n')
                   c = ' ';
@@ -102,6 +102,12 @@ namespace mitre::base
       return false;
     }
   } // namespace
+
+
+  std::string describe_contents(const std::string &file_name)
+  {
+    return file_name + contents + sum_of_contents(file_name);
+  }
 
 
   std::map<std::string, std::string>

@@ -374,17 +374,21 @@ namespace mitre::base
           problem = statement.place() + "the parameter '" + statement.name + "' " +
                     describe(statement.path) + " has the value '" + value +
                     "', but must match " + pattern + ".";
-          const std::string selection = "[Selection ";
-          if (pattern.compare(0, selection.size(), selection) == 0)
-            {
-              const std::string nearest =
-                nearest_name(value,
-                             split(pattern.substr(selection.size(),
-                                                  pattern.size() - selection.size() - 2),
-                                   '|'));
-              if (!nearest.empty())
-                problem += " Did you mean '" + nearest + "'?";
-            }
+          // "[Selection a|b|c ]", or "[MultipleSelection a|b|c ]" for a list of these
+          for (const std::string selection : {"[Selection ", "[MultipleSelection "})
+            if (pattern.compare(0, selection.size(), selection) == 0)
+              {
+                const std::vector<std::string> known = split(
+                  pattern.substr(selection.size(), pattern.size() - selection.size() - 2),
+                  '|');
+                for (const std::string &piece : selection == "[Selection "
+                                                  ? std::vector<std::string>{value}
+                                                  : split(value, ','))
+                  if (std::find(known.begin(), known.end(), piece) == known.end())
+                    if (const std::string nearest = nearest_name(piece, known);
+                        !nearest.empty())
+                      problem += " Did you mean '" + nearest + "'?";
+              }
         }
       catch (const UserError &error)
         {

@@ -507,7 +507,8 @@ namespace mitre::io
                                      const CheckpointState &state,
                                      const std::map<std::string, std::string> &parameters,
                                      const std::vector<grid::Leaf> &owned_leaves,
-                                     const std::vector<CheckpointField> &fields) const
+                                     const std::vector<CheckpointField> &fields,
+                                     const bool remove_older) const
   {
     namespace MPI                  = dealii::Utilities::MPI;
     const unsigned int rank        = MPI::this_mpi_process(communicator);
@@ -651,7 +652,7 @@ namespace mitre::io
 
     // Step 5: older ones, which first lose their names.
     const std::vector<std::string> all = list();
-    if (root)
+    if (root && remove_older)
       for (std::size_t i = n_kept; i < all.size(); ++i)
         {
           std::error_code error;

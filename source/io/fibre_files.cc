@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -168,30 +170,57 @@ namespace mitre::io
     }
 
 
-    /// The text of a file on all ranks; @p found says whether there is one.
+    bool is_there(const std::string &file)
+    {
+      std::error_code ignored;
+      return std::filesystem::exists(std::filesystem::symlink_status(file, ignored));
+    }
+
+
+    /// The text of a file on all ranks; @p found says whether there is one. Throws
+    /// base::UserError on all ranks if it cannot be read.
     std::string
     read_on_first_rank(const std::string &file, const MPI_Comm communicator, bool &found)
     {
       std::string text;
       found = false;
-      if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-        {
-          std::ifstream in(file);
-          found = static_cast<bool>(in);
-          if (found)
-            text.assign(std::istreambuf_iterator<char>(in),
-                        std::istreambuf_iterator<char>());
-        }
+      call_together(communicator, [&]() {
+        if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
+          return;
+        found = is_there(file);
+        if (!found)
+          return;
+        errno = 0;
+        std::ifstream in(file);
+        if (in)
+          text.assign(std::istreambuf_iterator<char>(in),
+                      std::istreambuf_iterator<char>());
+        AssertThrow(in,
+                    base::UserError(
+                      "Fibre file " + file + " cannot be read: " +
+                      (errno == 0 ? "the system gives no reason" : std::strerror(errno)) +
+                      "."));
+      });
       found = dealii::Utilities::MPI::broadcast(communicator, found);
       return dealii::Utilities::MPI::broadcast(communicator, text);
     }
 
 
-    std::filesystem::path with_ending(const std::string &file, const std::string &ending)
+    std::string with_ending(const std::string &file, const std::string &ending)
     {
-      return std::filesystem::path(file).replace_extension(ending);
+      return std::filesystem::path(file).replace_extension(ending).string();
     }
   } // namespace
+
+
+  std::map<std::string, std::string> files_beside(const std::string &vertex_file)
+  {
+    std::map<std::string, std::string> files;
+    for (const std::string ending : {".spring", ".beam", ".target"})
+      if (const std::string file = with_ending(vertex_file, ending); is_there(file))
+        files[ending] = file;
+    return files;
+  }
 
 
   template <int dim>
@@ -300,7 +329,7 @@ namespace mitre::io
     structure::FibreNetwork<dim> network;
     for (const auto &[ending, read] : files)
       {
-        const std::string file = with_ending(vertex_file, ending).string();
+        const std::string file = with_ending(vertex_file, ending);
         bool found;
         std::istringstream in(read_on_first_rank(file, communicator, found));
         AssertThrow(found || ending != ".vertex",

@@ -534,6 +534,8 @@ namespace mitre::io
     call_together(communicator, [&]() {
       for (const std::string &file : unsynchronised)
         io::synchronise(file);
+      if (!unsynchronised.empty())
+        io::synchronise(folder);
       unsynchronised.clear();
     });
   }

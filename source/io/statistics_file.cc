@@ -80,7 +80,9 @@ namespace mitre::io
     const std::string folder = std::filesystem::path(file_name).parent_path().string();
     if (!folder.empty())
       make_folder(folder);
-    write_file(file_name, [&](std::ostream &out) { out << text; });
+    write_file(
+      file_name, [&](std::ostream &out) { out << text; }, true);
+    size  = text.size();
     errno = 0;
     file.open(file_name, std::ios::binary | std::ios::app);
     AssertThrow(file, base::UserError(describe_write_error(file_name, errno)));
@@ -128,7 +130,16 @@ namespace mitre::io
   {
     errno = 0;
     file << pending << std::flush;
-    AssertThrow(file, base::UserError(describe_write_error(file_name, errno)));
+    if (!file)
+      {
+        // A line may have been cut short.
+        const int error_number = errno;
+        file.close();
+        std::error_code ignored;
+        std::filesystem::resize_file(file_name, size, ignored);
+        throw base::UserError(describe_write_error(file_name, error_number));
+      }
+    size += pending.size();
     pending.clear();
     n_pending_lines = 0;
     last_written    = std::chrono::steady_clock::now();

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 
 #include <mitre/simulation/checkpoint_schedule.h>
 
@@ -14,19 +15,32 @@ namespace mitre::simulation
   {
     volatile std::sig_atomic_t checkpoint_requested = 0;
     volatile std::sig_atomic_t stop_signal          = 0;
+    volatile std::sig_atomic_t time_of_stop         = 0; // [s]
+
+    /// Batch systems send a signal to all processes, and mpirun hands its own one on to
+    /// the ranks: what comes so soon after the first [s] is the same wish.
+    constexpr std::sig_atomic_t same_wish = 2;
 
     extern "C" void handle_signal(const int signal)
     {
       if (signal == SIGUSR1)
-        checkpoint_requested = 1;
-      else if (stop_signal != 0 && signal != SIGUSR2)
+        {
+          checkpoint_requested = 1;
+          return;
+        }
+      struct timespec now;
+      clock_gettime(CLOCK_MONOTONIC, &now);
+      if (stop_signal == 0)
+        {
+          time_of_stop = now.tv_sec;
+          stop_signal  = signal;
+        }
+      else if (signal != SIGUSR2 && now.tv_sec - time_of_stop >= same_wish)
         {
           // asked twice: without further ado
           std::signal(signal, SIG_DFL);
           std::raise(signal);
         }
-      else
-        stop_signal = signal;
     }
 
 

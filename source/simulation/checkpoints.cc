@@ -11,6 +11,7 @@
 
 #include <mitre/base/exceptions.h>
 #include <mitre/base/parameter_values.h>
+#include <mitre/io/fibre_files.h>
 #include <mitre/io/safe_file.h>
 #include <mitre/simulation/simulation.h>
 
@@ -140,6 +141,28 @@ namespace mitre::simulation
                fs::equivalent(fs::canonical(resumed->folder(), ignored).parent_path(),
                               checkpoints->folder(),
                               ignored));
+  }
+
+
+  // A run depends on these as on the vertex file, which is a parameter. They have their
+  // values by default, for checkpoints of programs that did not list them.
+  template <int dim>
+  void Simulation<dim>::list_files_beside_vertex_files()
+  {
+    const std::string ending = " / Vertex file";
+    std::map<std::string, std::string> found;
+    for (const auto &[name, value] : parameter_values)
+      if (!value.empty() && name.size() > ending.size() &&
+          name.compare(name.size() - ending.size(), ending.size(), ending) == 0)
+        {
+          for (const std::string kind : {".spring", ".beam", ".target"})
+            found[name + " (" + kind + ")"] = "";
+          for (const auto &[kind, file] :
+               io::files_beside(value.substr(0, value.rfind(", contents "))))
+            found[name + " (" + kind + ")"] = base::describe_contents(file);
+        }
+    parameter_values.insert(found.begin(), found.end());
+    parameter_defaults.insert(found.begin(), found.end());
   }
 
 
@@ -304,7 +327,7 @@ namespace mitre::simulation
 
 
   template <int dim>
-  void Simulation<dim>::write_checkpoint()
+  void Simulation<dim>::write_checkpoint(const bool remove_older)
   {
     if (last_checkpoint_step == static_cast<long>(step_number))
       return;
@@ -388,7 +411,8 @@ namespace mitre::simulation
                                          state,
                                          parameter_values,
                                          patch_grid->owned_leaves(),
-                                         checkpoint_fields(fluid_state));
+                                         checkpoint_fields(fluid_state),
+                                         remove_older);
     last_checkpoint_step = step_number;
   }
 
@@ -462,30 +486,36 @@ namespace mitre::simulation
     n_repeated      = before_step.n_repeated;
 
     const std::string flow = "\nBefore this step " + describe_fastest_flow() + ".";
+    std::ostringstream text;
+    text << flow;
     try
       {
-        write_checkpoint();
+        // The step may fail because this state is bad already.
+        write_checkpoint(false);
+        text << "\nThe state before this step, at t = " << current_time
+             << " s after step " << step_number << ", is in " << last_checkpoint << ".";
+        const std::vector<std::string> all = checkpoints->list();
+        if (all.size() > 1 && all[0] == last_checkpoint)
+          text << " To go on from the one before it, use --resume=" << all[1] << ".";
       }
-    catch (const base::UserError &error)
+    catch (const std::exception &error)
       {
-        return flow + "\nThe state before this step could not be saved: " + error.what();
+        text << "\nThe state before this step could not be saved: " << error.what();
       }
-    std::ostringstream text;
-    text << flow << "\nThe state before this step, at t = " << current_time
-         << " s after step " << step_number << ", is in " << last_checkpoint << ".";
     return text.str();
   }
 
 
 #define MITRE_INSTANTIATE(dim)                                                           \
   template void Simulation<dim>::open_checkpoint(const std::string &);                   \
+  template void Simulation<dim>::list_files_beside_vertex_files();                       \
   template void Simulation<dim>::check_parameters() const;                               \
   template void Simulation<dim>::restore_positions();                                    \
   template void Simulation<dim>::restore_grid();                                         \
   template void Simulation<dim>::restore_state();                                        \
   template std::vector<io::CheckpointField> Simulation<dim>::checkpoint_fields(          \
     fluid::NavierStokes<dim>::State &) const;                                            \
-  template void Simulation<dim>::write_checkpoint();                                     \
+  template void Simulation<dim>::write_checkpoint(const bool);                           \
   template void Simulation<dim>::save_step();                                            \
   template void Simulation<dim>::restore_step_fields();                                  \
   template bool Simulation<dim>::all_ranks_are_here() const;                             \

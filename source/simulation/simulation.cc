@@ -7,6 +7,7 @@
 #include <exception>
 #include <filesystem>
 #include <iomanip>
+#include <new>
 #include <optional>
 #include <sstream>
 
@@ -39,6 +40,15 @@ namespace mitre::simulation
       return std::chrono::duration<double>(
                std::chrono::steady_clock::now().time_since_epoch())
         .count();
+    }
+
+
+    std::string describe(const std::exception &error)
+    {
+      if (dynamic_cast<const std::bad_alloc *>(&error) != nullptr)
+        return "There is not enough memory. Use a coarser grid, fewer levels or more "
+               "machines.";
+      return error.what();
     }
   } // namespace
 
@@ -252,6 +262,7 @@ namespace mitre::simulation
         {
           parameter_values   = base::list_parameter_values(prm);
           parameter_defaults = base::list_parameter_defaults(prm);
+          list_files_beside_vertex_files();
         }
     });
     open_checkpoint(resume.empty() ? prm.get("Resume") : resume);
@@ -888,12 +899,21 @@ namespace mitre::simulation
       {
         return run_to_end();
       }
-    catch (const base::UserError &error)
+    catch (const std::exception &error)
       {
-        throw base::UserError(
-          error.what() + (last_checkpoint.empty()
-                            ? std::string("\nThe run has written no checkpoint.")
-                            : "\nThe newest checkpoint is " + last_checkpoint + "."));
+        std::ostringstream text;
+        text << describe(error);
+        if (stage == Stage::step)
+          text << "\nThe run stops in step " << step_number + 1
+               << ", which begins at t = " << current_time << " s." << rescue();
+        else if (stage == Stage::between_steps)
+          text << "\nThe run stops after step " << step_number
+               << ", at t = " << current_time
+               << " s. When that has been put right, start it again.";
+        text << (last_checkpoint.empty()
+                   ? "\nThe run has written no checkpoint."
+                   : "\nThe newest checkpoint is " + last_checkpoint + ".");
+        throw base::UserError(text.str());
       }
   }
 
@@ -901,6 +921,14 @@ namespace mitre::simulation
   template <int dim>
   void Simulation<dim>::prepare_output()
   {
+    io::call_together(communicator, [&]() {
+      if (root)
+        {
+          io::make_folder(output_folder);
+          folder_lock = std::make_unique<io::FolderLock>(output_folder);
+        }
+    });
+
     // Files of an earlier run: continued, or at least not mixed with those of this one.
     if (continues_output)
       {
@@ -920,7 +948,6 @@ namespace mitre::simulation
     io::call_together(communicator, [&]() {
       if (root)
         {
-          io::make_folder(output_folder);
           io::write_file(
             (std::filesystem::path(output_folder) / "parameters.prm").string(),
             [&](std::ostream &out) { out << base::expand_includes(parameter_file); });
@@ -1003,19 +1030,12 @@ namespace mitre::simulation
     base::Progress progress(std::cout, current_time, end_time, "s");
     while (!finished())
       {
-        try
-          {
-            const double begin = wall_clock();
-            advance();
-            longest_step = std::max(longest_step, wall_clock() - begin);
-          }
-        catch (const base::UserError &error)
-          {
-            std::ostringstream when;
-            when << "\nThe run stops in step " << step_number + 1
-                 << ", which begins at t = " << current_time << " s.";
-            throw base::UserError(error.what() + when.str() + rescue());
-          }
+        stage              = Stage::step;
+        const double begin = wall_clock();
+        advance();
+        longest_step = std::max(longest_step, wall_clock() - begin);
+        stage        = Stage::between_steps;
+
         iterations_since = std::max(iterations_since, last_iterations);
         ++steps_since;
 

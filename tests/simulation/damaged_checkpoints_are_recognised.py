@@ -110,6 +110,11 @@ for name, line, good in (("at its default", "Fluid / Density = ", True),
     check("older checkpoint, new parameter " + name, words in text,
           words if words in text else text[-600:])
 
+# --resume has precedence over the parameter.
+text = case.run(program, "through", options=["--resume"], resume="never",
+                **dict(short, end="0.168", fields="0.04", kept="2", statistics="1"))
+check("--resume: goes on", "resumed from through/checkpoints/" in text)
+
 # Resume = never
 kept = sorted(os.listdir("through/checkpoints"))
 text = case.run(program, "through", options=["--resume=never"], **short)
@@ -154,6 +159,12 @@ text = case.run(program, "fails", status=1, **dict(short, stiffness="3e6", perio
 words = "The state before this step, at t = "
 check("failed step: saved", words in text and len(case.checkpoints("fails")) == 1,
       [line for line in text.splitlines() if words in line])
+check("failed step: nothing older to go on from", "--resume=" not in text)
+text = case.run(program, "kept", status=1, **dict(short, end="0.24", period="25", kept="1"))
+kept = case.checkpoints("kept")
+check("failed step: the checkpoint before it stays", len(kept) == 2
+      and kept[0].endswith("00000025") and "is in " + kept[1] in text
+      and "use --resume=" + kept[0] + "." in text, kept)
 again = case.run(program, "fails", status=1, **dict(short, stiffness="3e6", period="0"))
 check("failed step: the same error again", "resumed from fails/" in again
       and text.split("mitre: ")[1].split(".\n")[0] == again.split("mitre: ")[1].split(".\n")[0])

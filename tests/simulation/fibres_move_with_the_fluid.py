@@ -134,57 +134,7 @@ check("ring: energy falls to that of the circle",
       "%.4f, %.4f; %.4f" % (energies[0], energies[-1], circle))
 
 # The strand, in the way of the block.
-n = 40
-with open("strand.vertex", "w") as file:
-    file.write("%d # nodes\n" % (n + 2))
-    for i in range(n):
-        file.write("%.17g %.17g\n" % (1.0 + 0.05 * math.sin(5 * i / n), 0.15 + 0.6 * i / n))
-    file.write("1.3 0.3\n1.3 0.6\n")
-with open("strand.spring", "w") as file:
-    file.write("%d\n" % (n - 1))
-    for i in range(n - 1):
-        file.write("%d %d 60 %.17g %d\n" % (i, i + 1, 0.015, i % 3 == 0))
-with open("strand.beam", "w") as file:
-    file.write("%d\n" % (n - 2))
-    for i in range(n - 2):
-        file.write("%d %d %d 40 0.0001 0\n" % (i, i + 1, i + 2))
-with open("strand.target", "w") as file:
-    file.write("4\n0 80 0.01\n1 80 0.01\n%d 20\n%d 20\n" % (n, n + 1))
-STRAND = """  subsection Part strand
-    set Kind = fibres
-    set Vertex file = strand.vertex
-    set Spring laws = straight, curled
-    subsection Spring law straight
-      set Type = linear
-      set Compression = false
-    end
-    subsection Spring law curled
-      set Type = exponential
-      set Force function = 1
-      set Exponent = 2
-    end
-    set Target displacement x = 0.1*t
-    set Constraints = top
-    subsection Constraint top
-      set Type = tether
-      set Acts on = points
-      set Region = y > 0.72
-      set Stiffness = 50
-    end
-  end
-end
-subsection Instruments
-"""
-assert "set Parts = block" in case.PARAMETERS
-case.PARAMETERS = case.PARAMETERS.replace("set Parts = block", "set Parts = block, strand").replace(
-    "end\nsubsection Instruments\n", STRAND).replace("Instruments = flow,", "Instruments = extent, flow,").replace(
-    "  subsection Instrument flow", """  subsection Instrument extent
-    set Type = part extent
-    set Part = strand
-    set Axis = x
-  end
-  subsection Instrument flow""").replace("Part = block", "Part = strand")
-
+case.add_strand()
 for ranks in (1, 2):
     through, resumed = "through_%d" % ranks, "resumed_%d" % ranks
     text = case.run(program, through, ranks, dt="2e-3", period="20")
@@ -193,10 +143,24 @@ for ranks in (1, 2):
     every = case.checkpoints(resumed)
     for later in every[3:]:
         shutil.rmtree(later)
+    at, changes = int(os.path.basename(every[2])), case.changes_of_the_grid(through, 3)
+    check("strand, %d rank(s): the grid changes before step %d and after" % (ranks, at),
+          min(changes) <= at < max(changes), changes)
     text = case.run(program, resumed, ranks, dt="2e-3", period="20")
     check("strand, %d rank(s): resumed" % ranks, "resumed from" in text)
     found = case.differences(through, resumed)
     check("strand, %d rank(s): the same" % ranks, not found, found or "to the last bit")
+
+# Springs belong to the run as the vertex file does.
+with open("strand.spring", "a") as file:
+    file.write("# softer\n")
+text = case.run(program, "resumed_1", status=1, dt="2e-3", period="20", end="0.3")
+check("strand: changed springs", "has other parameters" in text and text.count(", is now ") == 1
+      and "Part strand / Vertex file (.spring): was" in text, text[-300:])
+os.remove("strand.beam")
+text = case.run(program, "resumed_1", status=1, dt="2e-3", period="20", end="0.3")
+check("strand: no beams any more", '(.beam): was "strand.beam, contents ' in text
+      and ', is now ""' in text, text[-300:])
 a, b = case.statistics("through_1"), case.statistics("through_2")
 names = a[0]
 for name in ("strand target points displacement [cm]", "strand top displacement [cm]",

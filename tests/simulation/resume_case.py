@@ -5,6 +5,7 @@ levels and follows it, and a rigid bar that swings across the channel."""
 import array
 import csv
 import glob
+import math
 import os
 import re
 import resource
@@ -22,7 +23,7 @@ subsection Time
 end
 subsection Checkpoints
   set Steps between checkpoints   = %(period)s
-  set Minutes between checkpoints = 0
+  set Minutes between checkpoints = %(minutes)s
   set Number kept                 = %(kept)s
   set Wall time limit             = %(limit)s
 end
@@ -117,9 +118,35 @@ subsection Output
 end
 """
 
+STRAND = """  subsection Part strand
+    set Kind = fibres
+    set Vertex file = strand.vertex
+    set Spring laws = straight, curled
+    subsection Spring law straight
+      set Type = linear
+      set Compression = false
+    end
+    subsection Spring law curled
+      set Type = exponential
+      set Force function = 1
+      set Exponent = 2
+    end
+    set Target displacement x = 0.1*t
+    set Constraints = top
+    subsection Constraint top
+      set Type = tether
+      set Acts on = points
+      set Region = y > 0.72
+      set Stiffness = 50
+    end
+  end
+end
+subsection Instruments
+"""
+
 DEFAULTS = dict(resume="auto", end="0.24", dt="4e-3", courant="0", maximum="1", period="10",
                 kept="100", limit="0", tolerance="1e-6", mass_tolerance="1e-10",
-                stiffness="1", fields="0.02", statistics="3")
+                stiffness="1", fields="0.02", statistics="3", minutes="0")
 
 
 def write_mesh(name="block", x=0.4, y=0.35, width=0.2, height=0.2, n=8):
@@ -142,6 +169,38 @@ def write_mesh(name="block", x=0.4, y=0.35, width=0.2, height=0.2, n=8):
 def write_meshes():
     write_mesh()
     write_mesh("bar", 0.75, 0.1, 0.06, 0.06, 4)
+
+
+def add_strand():
+    """A strand of springs, beams and moving target points, in the way of the block, from here on."""
+    global PARAMETERS
+    n = 40
+    with open("strand.vertex", "w") as file:
+        file.write("%d # nodes\n" % (n + 2))
+        for i in range(n):
+            file.write("%.17g %.17g\n" % (1.0 + 0.05 * math.sin(5 * i / n), 0.15 + 0.6 * i / n))
+        file.write("1.3 0.3\n1.3 0.6\n")
+    with open("strand.spring", "w") as file:
+        file.write("%d\n" % (n - 1))
+        for i in range(n - 1):
+            file.write("%d %d 60 %.17g %d\n" % (i, i + 1, 0.015, i % 3 == 0))
+    with open("strand.beam", "w") as file:
+        file.write("%d\n" % (n - 2))
+        for i in range(n - 2):
+            file.write("%d %d %d 40 0.0001 0\n" % (i, i + 1, i + 2))
+    with open("strand.target", "w") as file:
+        file.write("4\n0 80 0.01\n1 80 0.01\n%d 20\n%d 20\n" % (n, n + 1))
+    for old, new in (("set Parts = block", "set Parts = block, strand"),
+                     ("end\nsubsection Instruments\n", STRAND),
+                     ("Instruments = flow,", "Instruments = extent, flow,"),
+                     ("  subsection Instrument flow", """  subsection Instrument extent
+    set Type = part extent
+    set Part = strand
+    set Axis = x
+  end
+  subsection Instrument flow"""), ("Part = block", "Part = strand")):
+        assert old in PARAMETERS, old
+        PARAMETERS = PARAMETERS.replace(old, new)
 
 
 def write_parameters(folder, **changes):
@@ -177,6 +236,12 @@ def statistics(folder):
         table = list(csv.reader(file))
     wall = [c for c, name in enumerate(table[0]) if "wall time" in name]
     return [[x for c, x in enumerate(line) if c not in wall] for line in table]
+
+
+def changes_of_the_grid(folder, period):
+    """After which steps the number of cells has changed, as far as a line each PERIOD steps tells."""
+    numbers = [line[2] for line in statistics(folder)[1:]]
+    return [period * i for i in range(1, len(numbers)) if numbers[i] != numbers[i - 1]]
 
 
 def checkpoints(folder):

@@ -120,6 +120,23 @@ def strand(text="", **files):
                 files={"strand." + ending: content for ending, content in texts.items()})
 
 
+class Link(str):
+    """In the place of a file's text: a symbolic link to this."""
+
+
+def loaded(text):
+    """A load on the cube."""
+    return dict(change=[("set Constraints = hold\n", "set Constraints = hold\n    set Loads = push\n"
+                         "    subsection Load push\n%s    end\n" % text)],
+                files={"table.csv": table})
+
+
+def measured(text):
+    """An instrument in the place of the flow meter."""
+    start = base.index("    set Type     = flow meter")
+    return dict(change=[(base[start:base.index("  end\n", start)], text)])
+
+
 # Where it is, the mistake, changes (pairs of texts), files, what the message must contain, in
 # this order. "arguments" replaces what the program is called with.
 errors = [
@@ -243,6 +260,10 @@ errors = [
          ["table.csv", "'atrium'", "its first and its last value differ"]),
     ]),
     ("Meshes and materials", [
+        ("a mesh that cannot be read", dict(files={"cube.msh": Link("nowhere")}),
+         ["'Mesh file' in the subsection Structure / Part cube", "cube.msh"]),
+        ("a folder in the place of a mesh", dict(change=[("cube.msh", "/")]),
+         ["'Mesh file' in the subsection Structure / Part cube"]),
         ("a mesh that is not there", dict(change=[("cube.msh", "nothing.msh")]),
          ["'Mesh file' in the subsection Structure / Part cube", "nothing.msh"]),
         ("a mesh that is no mesh", dict(files={"cube.msh": "solid cube\nfacet normal 0 0 1\n"}),
@@ -318,10 +339,45 @@ errors = [
         ("a constraint on no node",
          dict(change=[("set Stiffness", "set Region = x > 2\n      set Stiffness")]),
          ["Part cube, constraint hold: no node of", "is in its region"]),
+        ("a rigid part whose stresses are wanted",
+         dict(change=[("set Materials   = rubber", "set Rigid = true\n    set Element fields = J"),
+                      ("    subsection Material rubber\n      set Material id = 1\n"
+                       "      set Law         = neo-Hookean\n      subsection neo-Hookean\n"
+                       "        set C1 = 10\n      end\n    end\n", "")]),
+         ["Part cube: \"Rigid\" is true, but \"Element fields\" has 'J'; expected none"]),
+        ("a tether in the volume that names faces",
+         dict(change=[("set Stiffness", "set Boundary ids = 3\n      set Stiffness")]),
+         ["constraint hold: \"Boundary ids\" is '3', but the tether acts on volume",
+          "expected 'Acts on = surface'"]),
         ("a part outside of the box", dict(files={"cube.msh": mesh(points=scaled(1, 0.5))}),
          ["Part cube: a node of", "cube.msh is at", "outside of the fluid box"]),
         ("a mesh in mm", dict(files={"cube.msh": mesh(points=scaled(10))}),
          ["Part cube: a node of", "outside of the fluid box", "both in cm?"]),
+    ]),
+    ("Loads", [
+        ("a misspelt load", loaded("      set Type = presure\n"),
+         ["'Type'", "'presure'", "Did you mean 'pressure'?"]),
+        ("a load on faces that the mesh does not have",
+         loaded("      set Type = pressure\n      set Boundary ids = 4\n"),
+         ["load push: \"Boundary ids\" has 4, but no surface element of",
+          "cube.msh has this physical id. Its ids: none"]),
+        ("a load on nothing", loaded("      set Type = traction\n      set Region = x > 2\n"),
+         ["Part cube, load push: no element or face of", "cube.msh is in its region"]),
+        ("a load with a table and no column",
+         loaded("      set Type = pressure\n      set Pressure table = table.csv\n"),
+         ["load push: \"Pressure table\" is 'table.csv' and \"Pressure column\" is ''",
+          "expected both or neither"]),
+        ("a load with an expression and a table",
+         loaded("      set Type = pressure\n      set Pressure = 10\n"
+                "      set Pressure table = table.csv\n      set Pressure column = atrium\n"),
+         ["load push: there is a \"Pressure table\" as well as the \"Pressure\" '10'"]),
+        ("a force that cannot be read",
+         loaded("      set Type = body force\n      set Force x = 981*\n"),
+         ["load push", "Force x", "981*"]),
+        ("a parameter of another load", loaded("      set Type = damping\n      set Pressure = 1\n"),
+         ["there is no parameter 'Pressure'", "Load push"]),
+        ("a load on fibres", strand("    set Loads = push\n"),
+         ["there is no parameter 'Loads' in the subsection Structure / Part strand"]),
     ]),
     ("Fibre files", [
         ("a fibre part without a vertex file",
@@ -366,6 +422,8 @@ errors = [
          ["'Type'", "exponental", "Did you mean 'exponential'?"]),
         ("a beam that has a node twice", strand(beam="1\n0 1 0 10\n"),
          ["strand.beam, line 2: the nodes 0, 1, 0 of the beam are not three different ones"]),
+        ("a file of beams that cannot be read", strand(beam=Link("nowhere")),
+         ["Cannot read the file", "strand.beam'"]),
         ("half of a beam's curvature", strand(beam="1\n0 1 2 10 0.1\n"),
          ["strand.beam, line 2: expected the component y of the curvature"]),
         ("a node that is a target point twice", strand(target="2\n1 10\n1 10\n"),
@@ -394,6 +452,38 @@ errors = [
                       ("    set Position = 0.5\n    set Centre   = 0.5, 0.5\n"
                        "    set Radius   = 0.3\n", "")]),
          ["Instrument flow: there is no part 'cub'", "cube"]),
+        ("a leak through fibres",
+         dict(strand(), change=strand()["change"] +
+              measured("    set Type = leak\n    set Part = strand\n")["change"]),
+         ["Instrument flow: the part strand consists of fibres"]),
+        ("a leak without a direction",
+         measured("    set Type = leak\n    set Part = cube\n    set Direction = 0, 0, 0\n"),
+         ["Instrument flow: \"Direction\" is zero; expected is a vector"]),
+        ("a misspelt stress",
+         measured("    set Type = stress and strain\n    set Part = cube\n"
+                  "    set Quantities = J, fibre stres\n"),
+         ["'Quantities'", "'J, fibre stres', but must match", "Did you mean 'fibre stress'?"]),
+        ("the stress of a material that there is not",
+         measured("    set Type = stress and strain\n    set Part = cube\n"
+                  "    set Materials = ruber\n"),
+         ["Instrument flow: part cube has no material 'ruber'", "Did you mean 'rubber'?"]),
+        ("the stretch of fibres where there are none",
+         measured("    set Type = stress and strain\n    set Part = cube\n"
+                  "    set Quantities = fibre stretch\n"),
+         ["Instrument flow: the fibre stretch has no value, as there are no fibres in part cube"]),
+        ("the force on a part that nothing holds",
+         dict(change=[("    set Constraints = hold\n", "")] +
+              measured("    set Type = part force\n    set Part = cube\n")["change"] +
+              [("    subsection Constraint hold\n      set Type      = tether\n"
+                "      set Stiffness = 100\n    end\n", "")]),
+         ["Instrument flow: part cube has no constraints or loads"]),
+        ("a pressure point outside of the box",
+         measured("    set Type = pressure point\n    set Point = 0.5, 0.5, 1.2\n"),
+         ["Instrument flow: the pressure is wanted at (0.5 0.5 1.2) cm, outside"]),
+        ("a disc with three coordinates across its axis",
+         dict(change=[("Centre   = 0.5, 0.5", "Centre   = 0.5, 0.5, 0.5")]),
+         ["'Centre' in the subsection Instruments / Instrument flow", "'0.5, 0.5, 0.5'",
+          "but must match", "length 0...2"]),
         ("an output folder that is a file", dict(change=[("folder = run", "folder = cube.msh/run")]),
          ["Cannot make the folder cube.msh/run", "Not a directory"]),
         ("the same, found by `--validate`",
@@ -546,11 +636,13 @@ def run(change=(), files=None, arguments=("run.prm",)):
         contents["run.prm"] = contents["run.prm"].replace(old, new, 1)
     contents.update(files or {})
     for name, text in contents.items():
-        if text is not None:
+        if os.path.lexists(name):
+            os.remove(name)
+        if isinstance(text, Link):
+            os.symlink(text, name)
+        elif text is not None:
             with open(name, "w") as file:
                 file.write(text)
-        elif os.path.exists(name):
-            os.remove(name)
     result = subprocess.run([program] + list(arguments), capture_output=True, text=True,
                             timeout=250)
     return result.returncode, re.sub(r"\s+", " ", result.stdout + result.stderr)

@@ -17,6 +17,9 @@ namespace mitre::base
   std::map<std::string, std::string>
   list_parameter_values(const dealii::ParameterHandler &prm);
 
+  /// "valve.msh, contents 3f2a9c01": a file's name and the CRC-32 of what is in it.
+  std::string describe_contents(const std::string &file_name);
+
   /** The defaults of all parameters by their path. */
   std::map<std::string, std::string>
   list_parameter_defaults(const dealii::ParameterHandler &prm);

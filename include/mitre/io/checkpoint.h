@@ -155,13 +155,15 @@ namespace mitre::io
      * nothing of it remains, and the earlier ones are as they were. Returns its folder.
      *
      * @param fields must be finite; their owned entries are written
+     * @param remove_older false: the older ones stay, as the new one may be of no use
      */
     std::string write(const std::uint64_t step,
                       const double time,
                       const CheckpointState &state,
                       const std::map<std::string, std::string> &parameters,
                       const std::vector<grid::Leaf> &owned_leaves,
-                      const std::vector<CheckpointField> &fields) const;
+                      const std::vector<CheckpointField> &fields,
+                      const bool remove_older = true) const;
 
     /// The checkpoints that are there, the newest first, complete or not.
     std::vector<std::string> list() const;

@@ -4,6 +4,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <istream>
+#include <map>
 #include <string>
 
 #include <mitre/structure/fibre_network.h>
@@ -33,11 +34,16 @@ namespace mitre::io
    * all ranks, which names file and line, for anything else than this: another number of
    * entries than announced, columns too few or too many, a node that is not there or is
    * named twice in an entry, negative stiffness, damping or length, a second target point
-   * on a node.
+   * on a node; a file that is there but cannot be read.
    */
   template <int dim>
   structure::FibreNetwork<dim> read_fibres(const std::string &vertex_file,
                                            const MPI_Comm communicator);
+
+
+  /// The files of springs, beams and target points that belong to a vertex file and are
+  /// there, by their ending: ".spring" and so on. A link to nowhere is there, too.
+  std::map<std::string, std::string> files_beside(const std::string &vertex_file);
 
 
   /// The single files; @p source is the file's name for messages. Springs, beams and

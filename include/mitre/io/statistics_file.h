@@ -4,6 +4,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <chrono>
+#include <cstdint>
 #include <fstream>
 #include <optional>
 #include <string>
@@ -41,7 +42,8 @@ namespace mitre::io
 
     /**
      * Add a line; rank 0's values count. Collective. Throws base::UserError on all ranks
-     * if earlier lines could not be written, for instance because the disk is full.
+     * if earlier lines could not be written, for instance because the disk is full; the
+     * file then ends with a complete line.
      */
     void write(const std::vector<double> &values);
 
@@ -60,6 +62,7 @@ namespace mitre::io
     unsigned int n_columns;
 
     std::ofstream file;
+    std::uintmax_t size = 0; ///< of the file's complete lines [bytes]
     std::string pending;
     unsigned int n_pending_lines = 0;
     std::chrono::steady_clock::time_point last_written;

@@ -13,8 +13,9 @@ namespace mitre::simulation
    * and minutes, on signals, and before a limit of its wall time.
    *
    * SIGUSR1 asks for a checkpoint. SIGTERM, SIGINT and SIGUSR2 ask for one and for the
-   * end of the run after it; a second SIGTERM or SIGINT ends the process at once. Their
-   * handlers do nothing but set a flag, which decide() looks at after a step.
+   * end of the run after it; another SIGTERM or SIGINT, two seconds later or more, ends
+   * the process at once. Their handlers do nothing but set a flag, which decide() looks
+   * at after a step.
    */
   class CheckpointSchedule
   {

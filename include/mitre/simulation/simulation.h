@@ -16,6 +16,7 @@
 #include <mitre/instruments/instruments.h>
 #include <mitre/io/checkpoint.h>
 #include <mitre/io/output.h>
+#include <mitre/io/safe_file.h>
 #include <mitre/io/statistics_file.h>
 #include <mitre/simulation/checkpoint_schedule.h>
 #include <mitre/simulation/pressure_control.h>
@@ -155,13 +156,14 @@ namespace mitre::simulation
 
     // in checkpoints.cc
     void open_checkpoint(const std::string &mode);
+    void list_files_beside_vertex_files();
     void check_parameters() const;
     void restore_positions();
     void restore_grid();
     void restore_state();
     std::vector<io::CheckpointField>
     checkpoint_fields(typename fluid::NavierStokes<dim>::State &state) const;
-    void write_checkpoint();
+    void write_checkpoint(const bool remove_older = true);
     void save_step();
     void restore_step_fields();
     std::string rescue();
@@ -248,6 +250,10 @@ namespace mitre::simulation
     std::shared_ptr<coupling::RefinementMap<dim>> refinement_map;
     instruments::Instruments<dim> instruments;
     PressureControl<dim> pressure_control;
+
+    /// Of the output folder (root).
+    std::unique_ptr<io::FolderLock> folder_lock;
+
     std::unique_ptr<io::OutputWriter<dim>> output;
     std::unique_ptr<io::StatisticsFile> statistics;
 
@@ -267,6 +273,15 @@ namespace mitre::simulation
     double statistics_clock = 0.;
 
     StepState before_step;
+
+    /// For messages.
+    enum class Stage
+    {
+      preparation,
+      step,
+      between_steps
+    };
+    Stage stage = Stage::preparation;
 
     /// Wall time of the longest step of this program so far [s].
     double longest_step = 0.;
