@@ -148,6 +148,13 @@ namespace mitre::simulation
         else
           structure::BodyParameters<dim>::declare_parameters(prm);
         coupling::CouplingParameters::declare_parameters(prm, of_fibres);
+        prm.declare_entry(
+          "Comparison shape",
+          "",
+          base::InputFile(),
+          "A line that scripts/report draws beside the part as it is at the end: "
+          "comma-separated values with two columns such as \"x [cm],y [cm]\". Without "
+          "effect on the run.");
         prm.leave_subsection();
       }
     for (const std::string &name : base::declare_names(

@@ -5,7 +5,8 @@ The flow is 300 sin(pi t / 0.2) mL/s until 0.2 s and 3 mL/s to and fro after it,
 peak is 300 mL/s at 0.1 s and the mean |flow| from 0.32 to 0.5 s is 3 mL/s, 1 % of the peak.
 The pressure shuts the valve from 0.2 to 0.5 s, so that the middle of systole is 0.35 s. The
 valve is a tetrahedron that is red when "open" and moves to the upper half of the tube when
-"closed": the pictures must show something, and must differ.
+"closed": the pictures must show something, and must differ. The shape that it is compared with is
+the edge from (1, 1.5) to (2, 1.5) that it has when closed, 1 mm lower at one end.
 
 usage: report_shows_a_run.py FOLDER_OF_THE_REPOSITORY
 """
@@ -73,7 +74,19 @@ def make_run(folder):
         lines.append(f"{t:.4f},{flow},8,{closing},{80 * t},{t * t},0.25")
     lines.append("0.605,3,8")  # a line that has not been finished
     (folder / "statistics.csv").write_text("\n".join(lines) + "\n")
-    (folder / "run.prm").write_text("set Output folder = a < b\n")
+    (folder / "parameters.prm").write_text("""set Output folder = a < b
+subsection Structure
+  subsection Part leaflets
+    set Comparison shape = shapes/edge.csv # of the closed valve
+    subsection Material a
+      set Comparison shape = none
+    end
+  end
+end
+""")
+    shapes = folder.parent / "shapes"
+    shapes.mkdir()
+    (shapes / "edge.csv").write_text("y [mm],s [cm],x [cm]\n15,0,1\n15,0.5,1.5\n14,1,2\n")
 
 
 def report(*arguments):
@@ -106,11 +119,14 @@ with tempfile.TemporaryDirectory() as folder:
                  "Mean |flow| in 0.32-0.5 s: 3.00 mL/s, 1.00 % of the peak",
                  "Forward volume at the end: 48.00 mL",
                  "Largest displacement of leaflets: 0.36 cm",
-                 "Mean wall time of a step: 0.250 s"):
+                 "Mean wall time of a step: 0.250 s",
+                 "leaflets at 0.35 s, distance from edge.csv: 0.1 cm at most "
+                 "(at y = 1.4, x = 2 cm), 0.058 cm in the mean"):
         expect(line in output, line)
 
     page = (run / "report" / "index.html").read_text()
     expect("set Output folder = a &lt; b" in page, "the parameter file is in the page")
+    expect('alt="Shape of leaflets"' in page, "the comparison is drawn")
     expect("Open: peak forward flow (t = 0.1 s" in page, "the open valve")
     expect("Closed: mid-systole (t = 0.35 s" in page, "the closed valve")
     expect(not re.search(r'(src|href)="(?!data:)', page), "the page needs no other file")
@@ -123,6 +139,14 @@ with tempfile.TemporaryDirectory() as folder:
         expect(abs(images[view] - images[3 + view]).mean() > 1e-3,
                f"view {view} differs between open and closed")
 
+    edge = pathlib.Path(folder, "shapes", "edge.csv")
+    edge.write_text("x [cm],z\n1,2\n")
+    expect_error("edge.csv: expected two columns such as 'x [cm],y [cm]'", run)
+    edge.write_text("x [cm],z [cm]\n1,2\n1\n")
+    expect_error("edge.csv: a line does not have 2 numbers", run)
+    edge.unlink()
+    expect_error("The comparison shape shapes/edge.csv of", run)
+    (run / "parameters.prm").unlink()
     (run / "output" / "leaflets_1.vtu").unlink()
     expect_error("leaflets_1.vtu, which a .pvd file names, is missing", run)
     status, output = report("--no-pictures", run)

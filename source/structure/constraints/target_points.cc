@@ -97,6 +97,8 @@ namespace mitre::structure
     double largest_square = 0;
     for (unsigned int i = 0; i < owned.size(); ++i)
       {
+        if (owned[i].stiffness == 0) // a damper, which holds its node nowhere
+          continue;
         const dealii::Point<dim> x = target(reference_positions[i], t);
         double square              = 0;
         for (unsigned int c = 0; c < dim; ++c)
