@@ -14,7 +14,6 @@
 #include <fstream>
 #include <vector>
 
-
 #include "../../fluid/exact_flows.h"
 
 using namespace exact_flows;
