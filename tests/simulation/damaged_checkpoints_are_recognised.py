@@ -155,11 +155,11 @@ for name, limit, words, changes in (
     check("full disk, %s: goes on with room" % name, "resumed from " + last in text)
 
 # A step that fails.
-text = case.run(program, "fails", status=1, **dict(short, stiffness="3e6", period="0"))
+failed = case.run(program, "fails", status=1, **dict(short, stiffness="3e6", period="0"))
 words = "The state before this step, at t = "
-check("failed step: saved", words in text and len(case.checkpoints("fails")) == 1,
-      [line for line in text.splitlines() if words in line])
-check("failed step: nothing older to go on from", "--resume=" not in text)
+check("failed step: saved", words in failed and len(case.checkpoints("fails")) == 1,
+      [line for line in failed.splitlines() if words in line])
+check("failed step: nothing older to go on from", "--resume=" not in failed)
 text = case.run(program, "kept", status=1, **dict(short, end="0.24", period="25", kept="1"))
 kept = case.checkpoints("kept")
 check("failed step: the checkpoint before it stays", len(kept) == 2
@@ -167,6 +167,6 @@ check("failed step: the checkpoint before it stays", len(kept) == 2
       and "use --resume=" + kept[0] + "." in text, kept)
 again = case.run(program, "fails", status=1, **dict(short, stiffness="3e6", period="0"))
 check("failed step: the same error again", "resumed from fails/" in again
-      and text.split("mitre: ")[1].split(".\n")[0] == again.split("mitre: ")[1].split(".\n")[0])
+      and failed.split("mitre: ")[1].split(".\n")[0] == again.split("mitre: ")[1].split(".\n")[0])
 if failures:
     sys.exit("FAILED: " + ", ".join(failures))
