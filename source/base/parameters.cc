@@ -3,6 +3,7 @@
 #include <algorithm>
 // What Boost's own header asks for, lest it warn about its use of <boost/bind.hpp>.
 #define BOOST_BIND_GLOBAL_PLACEHOLDERS
+#include <boost/locale/utf.hpp>
 #include <boost/property_tree/json_parser.hpp>
 #include <boost/property_tree/ptree.hpp>
 #include <cctype>
@@ -412,6 +413,17 @@ namespace mitre::base
     }
 
 
+    // deal.II's lists of parameters, which are JSON, cannot be read otherwise.
+    bool is_utf8(const std::string &text)
+    {
+      using Traits = boost::locale::utf::utf_traits<char>;
+      for (auto at = text.begin(); at != text.end();)
+        if (!boost::locale::utf::is_valid_codepoint(Traits::decode(at, text.end())))
+          return false;
+      return true;
+    }
+
+
     void parse_statements(const std::vector<Statement> &all_statements,
                           ParameterHandler &prm,
                           const std::function<void(ParameterHandler &)> &declare)
@@ -422,6 +434,10 @@ namespace mitre::base
       for (const Statement &statement : statements)
         if (!statement.is_section)
           {
+            AssertThrow(is_utf8(statement.value),
+                        UserError(statement.place() + "the parameter '" + statement.name +
+                                  "' " + describe(statement.path) +
+                                  " has a value with bytes that are not UTF-8 text."));
             enter(prm, statement.path);
             prm.declare_entry(
               statement.name, undeclared + statement.value, dealii::Patterns::Anything());

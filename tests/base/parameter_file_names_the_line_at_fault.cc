@@ -80,6 +80,7 @@ main()
   try_to_parse("include other.prm\n");
   try_to_parse("subsection Dimension\nend\n");
   try_to_parse("set Structure = 3\n");
+  try_to_parse("set Dimension = 3\nset Time step = \xb5\n");
   try
     {
       ParameterHandler prm;

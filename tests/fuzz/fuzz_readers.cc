@@ -1,10 +1,12 @@
 // Target for libFuzzer (scripts/fuzz): whatever the bytes, the readers of parameter
-// files, tables, meshes and checkpoints must return or throw base::UserError, without
-// undefined behaviour and without asking for much more memory than the input is long.
+// files, tables, meshes, fibres and checkpoints must return or throw base::UserError,
+// without undefined behaviour and without asking for much more memory than the input is
+// long.
 //
-// The first byte chooses the reader: P parameter file, T time table, M mesh, C manifest
-// of a checkpoint, S its state, G its leaves. Checksums of checkpoints are put right, for
-// without that no change would get past them.
+// The first byte chooses the reader: P parameter file, T time table, M mesh, N nodes of
+// fibres, F springs, B beams, H target points, C manifest of a checkpoint, S its state, G
+// its leaves. Checksums of checkpoints are put right, for without that no change would
+// get past them.
 
 #include <deal.II/base/mpi.h>
 
@@ -23,6 +25,7 @@
 #include <mitre/base/parameters.h>
 #include <mitre/base/time_table.h>
 #include <mitre/io/checkpoint.h>
+#include <mitre/io/fibre_files.h>
 #include <mitre/io/mesh_reader.h>
 
 namespace
@@ -100,6 +103,23 @@ namespace
       catch (const base::UserError &)
         {
         }
+  }
+
+
+  template <int dim>
+  void read_fibres(const char kind, const std::string &text)
+  {
+    structure::FibreNetwork<dim> network;
+    network.nodes.resize(5);
+    std::istringstream in(text);
+    if (kind == 'N')
+      io::read_vertices(in, "fibres.vertex", network);
+    else if (kind == 'F')
+      io::read_springs(in, "fibres.spring", network);
+    else if (kind == 'B')
+      io::read_beams(in, "fibres.beam", network);
+    else
+      io::read_targets(in, "fibres.target", network);
   }
 
 
@@ -183,6 +203,19 @@ LLVMFuzzerTestOneInput(const std::uint8_t *data, const std::size_t size)
             break;
           case 'M':
             read_mesh(text);
+            break;
+          case 'N':
+          case 'F':
+          case 'B':
+          case 'H':
+            try
+              {
+                read_fibres<3>(data[0], text);
+              }
+            catch (const base::UserError &)
+              {
+              }
+            read_fibres<2>(data[0], text);
             break;
           case 'C':
           case 'S':
