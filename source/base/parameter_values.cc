@@ -97,7 +97,7 @@ namespace mitre::base
         return true;
       for (std::size_t at = name.find(" / "); at != std::string::npos;
            at             = name.find(" / ", at + 1))
-        if (free.count(name.substr(0, at + 3)) > 0)
+        if (free.count(name.substr(0, at + 3)) > 0 || free.count(name.substr(at)) > 0)
           return true;
       return false;
     }

@@ -23,14 +23,16 @@ namespace mitre::simulation
   namespace
   {
     /// Parameters that a run may change when it goes on: those that decide how long it
-    /// runs and what it writes.
+    /// runs and what it writes, and the step, as a shorter one may be what it needs.
     const std::set<std::string> free_parameters = {"Output folder",
                                                    "Resume",
                                                    "Checkpoints / ",
                                                    "Output / ",
                                                    "Time / End time",
+                                                   "Time / Time step",
                                                    "Time / Smallest time step",
-                                                   "Fluid / Solver / Residual history"};
+                                                   "Fluid / Solver / Residual history",
+                                                   " / Comparison shape"};
 
 
     /// Ranks wait so long for each other after an error [s]: those that meet it too are
@@ -273,6 +275,11 @@ namespace mitre::simulation
     current_time     = state.get_number("time [s]");
     step_number      = integer("step");
     time_step        = state.get_number("time step [s]");
+    if (state.numbers.count("counted from step") > 0) // not written at first
+      counted_from = {integer("counted from step"),
+                      state.get_number("counted from time [s]")};
+    if (wanted_courant_number == 0. && time_step != largest_time_step)
+      counted_from = {step_number, current_time};
     courant_number   = state.get_number("Courant number");
     last_iterations  = integer("iterations");
     last_measured    = state.get_number("time of statistics [s]");
@@ -372,6 +379,8 @@ namespace mitre::simulation
     set("time [s]", current_time);
     set("step", step_number);
     set("time step [s]", time_step);
+    set("counted from step", counted_from.first);
+    set("counted from time [s]", counted_from.second);
     set("Courant number", courant_number);
     set("iterations", last_iterations);
     set("time of statistics [s]", last_measured);

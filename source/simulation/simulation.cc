@@ -729,7 +729,8 @@ namespace mitre::simulation
         step(time_step);
         check_courant_number();
         ++step_number;
-        current_time = start_time + step_number * time_step;
+        current_time =
+          counted_from.second + (step_number - counted_from.first) * time_step;
       }
     else
       {
@@ -890,8 +891,13 @@ namespace mitre::simulation
       out << "  steps of at most " << largest_time_step << " s, Courant number "
           << wanted_courant_number;
     else
-      out << "  " << std::lround((end_time - start_time) / largest_time_step)
-          << " steps of " << largest_time_step << " s";
+      out << "  "
+          << counted_from.first +
+               std::lround((end_time - counted_from.second) / largest_time_step)
+          << " steps of " << largest_time_step << " s"
+          << (counted_from.first == 0 ? "" :
+                " since step " + std::to_string(counted_from.first) +
+                ", of other length before");
     if (is_resumed)
       out << ", resumed from " << last_checkpoint << " after step " << step_number
           << " at t = " << current_time << " s,";
@@ -990,6 +996,7 @@ namespace mitre::simulation
         set_initial_velocity();
     n_regrids     = 0;
     step_number   = 0;
+    counted_from  = {0, start_time};
     last_measured = start_time;
     n_outputs     = 0;
 
@@ -1008,7 +1015,9 @@ namespace mitre::simulation
       start();
     prepare_output();
 
-    const unsigned int n_steps = std::lround((end_time - start_time) / largest_time_step);
+    const unsigned int n_steps =
+      counted_from.first +
+      std::lround((end_time - counted_from.second) / largest_time_step);
     const auto finished        = [&]() {
       return wanted_courant_number > 0. ? current_time >= end_time
                                                : step_number >= n_steps;

@@ -29,6 +29,7 @@ main()
           p.enter_subsection("Part " + name);
           p.declare_entry("Mesh (file)", "", InputFile());
           p.declare_entry("Stiffness", "1e-3", dealii::Patterns::Double());
+          p.declare_entry("Label", "", Anything());
           p.enter_subsection("Output / more");
           p.declare_entry("Law", "linear", Anything());
           p.leave_subsection();
@@ -46,13 +47,14 @@ main()
   const auto show = [&](const std::string &what, const std::string &text) {
     std::cout << what << ":\n"
               << describe_changed_parameters(
-                   values, list(text), {"Folder", "Part A / Output / more / "})
+                   values, list(text), {"Folder", " / Label", "Part A / Output / more / "})
               << std::endl;
   };
   show("nothing", first);
   show("what may differ",
        "set Folder = there\n" + first +
-         "\nsubsection Part A\nsubsection Output / more\nset Law = cubic\nend\nend");
+         "\nsubsection Part A\nset Label = a\n"
+         "subsection Output / more\nset Law = cubic\nend\nend");
   show("a number in other words",
        first + "\nsubsection Part A\nset Stiffness = 0.001\nend");
   show("another number", first + "\nsubsection Part A\nset Stiffness = 0.0011\nend");

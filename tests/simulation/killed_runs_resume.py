@@ -27,6 +27,26 @@ os.makedirs(folder)
 os.chdir(folder)
 case.write_meshes()
 
+
+def kill_session(leader):
+    """Kills mpirun and its ranks, which are in process groups of their own, within a moment."""
+    left = [leader]
+    while left:
+        for pid in left:
+            try:
+                os.kill(pid, signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+        left = []
+        for pid in [int(name) for name in os.listdir("/proc") if name.isdigit()]:
+            try:
+                if os.getsid(pid) == leader and \
+                        open("/proc/%d/stat" % pid).read().rsplit(")")[-1].split()[0] != "Z":
+                    left.append(pid)
+            except OSError:
+                pass
+
+
 # The end is too far for any of the killed runs to reach it, however fast or slow the machine is
 # just then; when the last has been killed, it is brought near.
 step = 4e-3 * 3 / max(n_kills, 3)
@@ -46,10 +66,7 @@ while killed < n_kills:
     if process.poll() is not None:
         sys.exit("The run has ended after %d kills: status %d\n%s"
                  % (killed, process.returncode, process.communicate()[0][-2000:]))
-    os.killpg(process.pid, signal.SIGKILL)
-    if ranks > 1:
-        # The ranks are in process groups of their own, and end when mpirun has gone.
-        time.sleep(1)
+    kill_session(process.pid)
     text = process.communicate()[0]
     killed += 1
     resumed += "resumed from" in text

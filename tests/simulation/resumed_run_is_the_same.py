@@ -149,5 +149,22 @@ for name in a:
     difference = max(abs(x - y) for x, y in zip(a[name], b[name]))
     check("1, 2, 1 ranks: " + name, len(a[name]) == len(b[name]) and difference <= 1e-10 * size,
           "largest %.3e, difference %.1e" % (size, difference))
+
+# With steps of half the length from the middle on, and stopped once more after that.
+half = dict(tight, dt="1e-3", statistics="2")
+case.run(program, "shorter", end="0.12", **tight)
+text = case.run(program, "shorter", end="0.17", **half)
+check("shorter steps: said", "since step 60, of other length before" in text, text[:900])
+text = case.run(program, "shorter", end="0.24", **half)
+b = case.statistics("shorter")
+a = case.statistics("one")
+check("shorter steps: lines", len(b) == len(a), (len(b), len(a)))
+check("shorter steps: times", [line[0] for line in a] == [line[0] for line in b], b[-1][0])
+for name in ("flow [cm^2/s]", "energy elastic [erg/cm]", "extent max [cm]"):
+    c = a[0].index(name)
+    size = max(abs(float(line[c])) for line in a[1:])
+    difference = max(abs(float(x[c]) - float(y[c])) for x, y in zip(a[1:], b[1:]))
+    check("shorter steps: " + name, 0 < difference < 0.02 * size,
+          "largest %.3e, difference %.1e" % (size, difference))
 if failures:
     sys.exit("FAILED: " + ", ".join(failures))

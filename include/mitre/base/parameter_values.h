@@ -30,7 +30,7 @@ namespace mitre::base
    * nothing if none does. Numbers are compared as such, input files by their contents.
    *
    * @param free parameters that may differ; a name that ends with " / " stands for all of
-   * its section
+   * its section, one that begins with " / " for all that end with it
    * @param defaults of the parameters now: one that has its default now and was not there
    * before does not differ, for the program has learnt it since
    */

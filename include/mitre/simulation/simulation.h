@@ -233,6 +233,9 @@ namespace mitre::simulation
 
     double start_time = 0., end_time, output_interval;
     double largest_time_step, smallest_time_step;
+
+    /// The step and the time after which all fixed steps have had one length [s].
+    std::pair<unsigned int, double> counted_from{0, 0.};
     unsigned int statistics_interval;
     double wanted_courant_number, maximum_courant_number;
 
