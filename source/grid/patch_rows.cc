@@ -18,11 +18,71 @@ namespace mitre::grid
 
 
   template <int dim>
+  const typename PatchRows<dim>::Reads &PatchRows<dim>::reads() const
+  {
+    if (known_reads)
+      return *known_reads;
+    auto reads = std::make_unique<Reads>();
+
+    // Step 1: what is read, by leaf. Between calls the table is zero.
+    unsigned int n_entries = 0;
+    for (const Set &set : sets)
+      for (const unsigned int entry : set.entries)
+        n_entries = std::max(n_entries, entry + 1);
+    thread_local std::vector<unsigned int> table;
+    if (table.size() < leaves.size() * n_entries)
+      table.resize(leaves.size() * n_entries, 0);
+    std::vector<std::vector<unsigned int>> by_leaf(leaves.size());
+    for (const Set &set : sets)
+      for (unsigned int s = 0; s < set.leaves.size(); ++s)
+        for (unsigned int k = set.entry_starts[s]; k < set.entry_starts[s + 1]; ++k)
+          {
+            unsigned int &mark = table[set.leaves[s] * n_entries + set.entries[k]];
+            if (mark == 0)
+              by_leaf[set.leaves[s]].push_back(set.entries[k]);
+            mark = 1;
+          }
+    reads->starts = {0};
+    for (unsigned int leaf = 0; leaf < leaves.size(); ++leaf)
+      {
+        std::sort(by_leaf[leaf].begin(), by_leaf[leaf].end());
+        for (const unsigned int entry : by_leaf[leaf])
+          {
+            table[leaf * n_entries + entry] = reads->entries.size();
+            reads->entries.push_back(entry);
+          }
+        reads->starts.push_back(reads->entries.size());
+      }
+
+    // Step 2: where each entry of a row is among them.
+    for (const Set &set : sets)
+      {
+        auto &of_set = reads->of_set.emplace_back();
+        of_set.reserve(set.entries.size());
+        for (unsigned int s = 0; s < set.leaves.size(); ++s)
+          for (unsigned int k = set.entry_starts[s]; k < set.entry_starts[s + 1]; ++k)
+            of_set.push_back(table[set.leaves[s] * n_entries + set.entries[k]]);
+      }
+    for (unsigned int leaf = 0; leaf < leaves.size(); ++leaf)
+      for (const unsigned int entry : by_leaf[leaf])
+        table[leaf * n_entries + entry] = 0;
+    known_reads = std::move(reads);
+    return *known_reads;
+  }
+
+
+  template <int dim>
   std::size_t PatchRows<dim>::memory_consumption() const
   {
     std::size_t sum = leaves.size() * sizeof(RelativeLeaf);
     for (const Set &set : sets)
       sum += set.memory_consumption();
+    if (known_reads)
+      {
+        sum += 4 * (known_reads->starts.size() + known_reads->entries.size());
+        for (const auto &of_set : known_reads->of_set)
+          sum += 4 * of_set.size();
+      }
     return sum;
   }
 
@@ -164,8 +224,10 @@ namespace mitre::grid
         const unsigned int q = grid.find(patch.level + leaf.level, index);
         AssertThrow(q != numbers::invalid_unsigned_int, ExcInternalError());
         leaf_patches.push_back(q);
-        first_entries.push_back(q * n_dofs_per_patch);
-        remote = remote || q >= grid.n_owned_patches();
+        const bool is_owned = q < grid.n_owned_patches();
+        first_entries.push_back(is_owned ? q * n_dofs_per_patch :
+                                           numbers::invalid_unsigned_int);
+        remote = remote || !is_owned;
       }
     if (remote)
       remote_parts.push_back(parts.size());
@@ -189,23 +251,15 @@ namespace mitre::grid
 
   template <int dim>
   template <typename Operation>
-  void RowTable<dim>::for_each_remote_entry(const Operation &operation) const
+  void RowTable<dim>::for_each_remote_leaf(const Operation &operation) const
   {
     for (const unsigned int p : remote_parts)
-      {
-        const Part &part = parts[p];
-        for (unsigned int set = 0; set < part.rows->sets.size(); ++set)
-          {
-            const auto &rows = part.rows->sets[set];
-            for (unsigned int s = 0; s < rows.leaves.size(); ++s)
-              {
-                const unsigned int q = leaf_patches[part.leaves + rows.leaves[s]];
-                for (unsigned int k = rows.entry_starts[s]; k < rows.entry_starts[s + 1];
-                     ++k)
-                  operation(p, set, k, q, rows.entries[k]);
-              }
-          }
-      }
+      for (unsigned int leaf = 0; leaf < parts[p].rows->leaves.size(); ++leaf)
+        {
+          const unsigned int q = leaf_patches[parts[p].leaves + leaf];
+          if (q >= grid.n_owned_patches())
+            operation(p, leaf, q - grid.n_owned_patches());
+        }
   }
 
 
@@ -214,20 +268,19 @@ namespace mitre::grid
   {
     // marked by ghost leaf and entry, as each is read by many rows
     const unsigned int n_owned = grid.n_owned_patches();
-    std::vector<char> is_read(
-      (grid.n_local_patches() - n_owned) * static_cast<std::size_t>(n_dofs_per_patch), 0);
-    for_each_remote_entry([&](const unsigned int,
-                              const unsigned int,
-                              const unsigned int,
-                              const unsigned int q,
-                              const unsigned int entry) {
-      if (q >= n_owned)
-        is_read[static_cast<std::size_t>(q - n_owned) * n_dofs_per_patch + entry] = 1;
-    });
-    for (unsigned int q = n_owned; q < grid.n_local_patches(); ++q)
-      for (unsigned int entry = 0; entry < n_dofs_per_patch; ++entry)
-        if (is_read[static_cast<std::size_t>(q - n_owned) * n_dofs_per_patch + entry])
-          ghosts.push_back(grid.patch(q).global_id * n_dofs_per_patch + entry);
+    std::vector<std::vector<bool>> is_read(grid.n_local_patches() - n_owned);
+    for_each_remote_leaf(
+      [&](const unsigned int p, const unsigned int leaf, const unsigned int ghost) {
+        const auto &reads = parts[p].rows->reads();
+        is_read[ghost].resize(n_dofs_per_patch, false);
+        for (unsigned int k = reads.starts[leaf]; k < reads.starts[leaf + 1]; ++k)
+          is_read[ghost][reads.entries[k]] = true;
+      });
+    for (unsigned int ghost = 0; ghost < is_read.size(); ++ghost)
+      for (unsigned int entry = 0; entry < is_read[ghost].size(); ++entry)
+        if (is_read[ghost][entry])
+          ghosts.push_back(grid.patch(n_owned + ghost).global_id * n_dofs_per_patch +
+                           entry);
   }
 
 
@@ -236,41 +289,40 @@ namespace mitre::grid
   {
     if (remote_parts.empty())
       return;
-    // local numbers by ghost leaf and entry
+
+    // Step 1: the entries of each ghost leaf, ascending, and the local number of its first.
     const unsigned int n_owned = grid.n_owned_patches();
-    std::vector<unsigned int> numbers((grid.n_local_patches() - n_owned) *
-                                        static_cast<std::size_t>(n_dofs_per_patch),
-                                      dealii::numbers::invalid_unsigned_int);
-    unsigned int local = partitioner.locally_owned_size(), q = 0;
-    types::global_dof_index first = 0, last = 0; // of the leaf q
-    for (const types::global_dof_index ghost : partitioner.ghost_indices())
+    const unsigned int n_ghost = grid.n_local_patches() - n_owned;
+    std::vector<std::vector<unsigned int>> entries(n_ghost);
+    std::vector<unsigned int> local(n_ghost, 0);
+    unsigned int next = partitioner.locally_owned_size(), ghost = 0;
+    types::global_dof_index first = 0, last = 0; // of this leaf
+    for (const types::global_dof_index unknown : partitioner.ghost_indices())
       {
-        if (ghost < first || ghost >= last)
+        if (unknown < first || unknown >= last)
           {
-            first = ghost / n_dofs_per_patch * n_dofs_per_patch;
-            last  = first + n_dofs_per_patch;
-            q     = grid.local_patch(ghost / n_dofs_per_patch) - n_owned;
+            first        = unknown / n_dofs_per_patch * n_dofs_per_patch;
+            last         = first + n_dofs_per_patch;
+            ghost        = grid.local_patch(unknown / n_dofs_per_patch) - n_owned;
+            local[ghost] = next;
           }
-        numbers[static_cast<std::size_t>(q) * n_dofs_per_patch + (ghost - first)] =
-          local++;
+        entries[ghost].push_back(unknown - first);
+        ++next;
       }
-    for (const unsigned int p : remote_parts)
-      {
-        Part &part = parts[p];
-        part.places.resize(part.rows->sets.size());
-        for (unsigned int set = 0; set < part.places.size(); ++set)
-          part.places[set].resize(part.rows->sets[set].entries.size());
-      }
-    for_each_remote_entry([&](const unsigned int p,
-                              const unsigned int set,
-                              const unsigned int k,
-                              const unsigned int patch,
-                              const unsigned int entry) {
-      parts[p].places[set][k] =
-        patch < n_owned
-          ? patch * n_dofs_per_patch + entry
-          : numbers[static_cast<std::size_t>(patch - n_owned) * n_dofs_per_patch + entry];
-    });
+
+    // Step 2: where each part finds what it reads of them.
+    for_each_remote_leaf(
+      [&](const unsigned int p, const unsigned int leaf, const unsigned int ghost) {
+        const auto &reads = parts[p].rows->reads();
+        parts[p].places.resize(reads.entries.size(), numbers::invalid_unsigned_int);
+        std::size_t at = 0;
+        for (unsigned int k = reads.starts[leaf]; k < reads.starts[leaf + 1]; ++k)
+          {
+            while (entries[ghost][at] < reads.entries[k])
+              ++at;
+            parts[p].places[k] = local[ghost] + at;
+          }
+      });
   }
 
 
@@ -316,8 +368,7 @@ namespace mitre::grid
       {
         if (different.insert(part.rows.get()).second)
           sum += part.rows->memory_consumption();
-        for (const auto &places : part.places)
-          sum += 4 * places.size();
+        sum += 4 * part.places.size();
         for (const auto &values : part.boundary_values)
           sum += 8 * values.size();
       }

@@ -93,10 +93,26 @@ namespace mitre::grid
       std::size_t memory_consumption() const;
     };
 
+    /// The different entries that the rows of all sets read.
+    struct Reads
+    {
+      std::vector<unsigned int> starts;  ///< by leaf, and one more at the end
+      std::vector<unsigned int> entries; ///< numbers in the leaf, ascending
+
+      /// Which of them an entry of a row is, by set and entry.
+      std::vector<std::vector<unsigned int>> of_set;
+    };
+
     std::vector<RelativeLeaf> leaves;
     std::vector<Set> sets;
 
+    /// Made when first asked for, as only rows that read leaves of other ranks need it.
+    const Reads &reads() const;
+
     std::size_t memory_consumption() const;
+
+  private:
+    mutable std::unique_ptr<const Reads> known_reads;
   };
 
 
@@ -198,15 +214,18 @@ namespace mitre::grid
       if (with_boundary_values && !rows.boundary_terms.empty() &&
           !parts[part].boundary_values.empty())
         boundary = parts[part].boundary_values[set].data();
-      with_leaves(part, set, [&](const auto &first, const unsigned int *entries) {
+      with_segments(part, set, [&](const auto &segment) {
         for (unsigned int row = 0; row < rows.n_rows(); ++row)
           {
             double sum = (boundary == nullptr ? 0. : boundary[row]);
             for (unsigned int s = rows.starts[row]; s < rows.starts[row + 1]; ++s)
-              sum += product(rows.weights.data() + rows.entry_starts[s],
-                             entries + rows.entry_starts[s],
-                             rows.entry_starts[s + 1] - rows.entry_starts[s],
-                             values + first(s));
+              segment(s, [&](const auto &place) {
+                sum += product(rows.weights.data(),
+                               rows.entry_starts[s],
+                               rows.entry_starts[s + 1],
+                               values,
+                               place);
+              });
             for (unsigned int k = rows.auxiliary_starts[row];
                  k < rows.auxiliary_starts[row + 1];
                  ++k)
@@ -226,19 +245,18 @@ namespace mitre::grid
                          const Operation &operation) const
     {
       const Set &rows = parts[part].rows->sets[set];
-      with_leaves(part, set, [&](const auto &first, const unsigned int *entries) {
+      with_segments(part, set, [&](const auto &segment) {
         for (unsigned int row = 0; row < rows.n_rows(); ++row)
           {
             const double value = operation(rows.destinations[row]);
             if (value == 0.)
               continue;
             for (unsigned int s = rows.starts[row]; s < rows.starts[row + 1]; ++s)
-              {
-                double *leaf_values = values + first(s);
+              segment(s, [&](const auto &place) {
                 for (unsigned int k = rows.entry_starts[s]; k < rows.entry_starts[s + 1];
                      ++k)
-                  leaf_values[entries[k]] += rows.weights[k] * value;
-              }
+                  values[place(k)] += rows.weights[k] * value;
+              });
             for (unsigned int k = rows.auxiliary_starts[row];
                  k < rows.auxiliary_starts[row + 1];
                  ++k)
@@ -255,10 +273,12 @@ namespace mitre::grid
                         const Operation &operation) const
     {
       const Set &rows = parts[part].rows->sets[set];
-      with_leaves(part, set, [&](const auto &first, const unsigned int *entries) {
+      with_segments(part, set, [&](const auto &segment) {
         for (unsigned int s = rows.starts[row]; s < rows.starts[row + 1]; ++s)
-          for (unsigned int k = rows.entry_starts[s]; k < rows.entry_starts[s + 1]; ++k)
-            operation(first(s) + entries[k], rows.weights[k]);
+          segment(s, [&](const auto &place) {
+            for (unsigned int k = rows.entry_starts[s]; k < rows.entry_starts[s + 1]; ++k)
+              operation(place(k), rows.weights[k]);
+          });
       });
     }
 
@@ -279,59 +299,73 @@ namespace mitre::grid
       std::shared_ptr<const PatchRows<dim>> rows;
       /// Where the leaves of the rows start in first_entries.
       unsigned int leaves;
-      /// Local numbers by set and entry, where not all leaves belong to this rank.
-      std::vector<std::vector<unsigned int>> places;
+      /// Local numbers of what the rows read (PatchRows::Reads), where not all leaves
+      /// belong to this rank; those that do are left out.
+      std::vector<unsigned int> places;
       std::vector<std::vector<double>> boundary_values;
     };
 
-    /// The sum of weights times values, in an order that does not make each addition wait
-    /// for the one before.
+    /// The sum of weights times values for entries from @p begin to before @p end, in an
+    /// order that does not make each addition wait for the one before.
+    template <typename Place>
     [[gnu::always_inline]] static double product(const double *weights,
-                                                 const unsigned int *entries,
-                                                 const unsigned int size,
-                                                 const double *values)
+                                                 const unsigned int begin,
+                                                 const unsigned int end,
+                                                 const double *values,
+                                                 const Place &place)
     {
       double sum[4]  = {0., 0., 0., 0.};
-      unsigned int k = 0;
-      for (; k + 4 <= size; k += 4)
+      unsigned int k = begin;
+      for (; k + 4 <= end; k += 4)
         for (unsigned int i = 0; i < 4; ++i)
-          sum[i] += weights[k + i] * values[entries[k + i]];
-      for (; k < size; ++k)
-        sum[0] += weights[k] * values[entries[k]];
+          sum[i] += weights[k + i] * values[place(k + i)];
+      for (; k < end; ++k)
+        sum[0] += weights[k] * values[place(k)];
       return (sum[0] + sum[1]) + (sum[2] + sum[3]);
     }
 
-    /// Calls operation(first, entries), so that first(s) + entries[k] is the local number
-    /// of the k-th entry, which is in segment s.
+    /// Calls operation(segment), where segment(s, use) calls use(place) for the s-th
+    /// segment, and place(k) is the local number of the k-th entry, which is in it.
     template <typename Operation>
-    void with_leaves(const unsigned int part,
-                     const unsigned int set,
-                     const Operation &operation) const
+    void with_segments(const unsigned int part,
+                       const unsigned int set,
+                       const Operation &operation) const
     {
-      const Part &here = parts[part];
-      const Set &rows  = here.rows->sets[set];
+      const Part &here            = parts[part];
+      const Set &rows             = here.rows->sets[set];
+      const unsigned int *leaves  = rows.leaves.data();
+      const unsigned int *first   = first_entries.data() + here.leaves;
+      const unsigned int *entries = rows.entries.data();
+      const auto owned_segment    = [=](const unsigned int s, const auto &use) {
+        const unsigned int from = first[leaves[s]];
+        use([=](const unsigned int k) { return from + entries[k]; });
+      };
       if (here.places.empty())
-        {
-          const unsigned int *leaves = rows.leaves.data();
-          const unsigned int *first  = first_entries.data() + here.leaves;
-          operation([leaves, first](const unsigned int s) { return first[leaves[s]]; },
-                    rows.entries.data());
-        }
+        operation(owned_segment);
       else
-        operation([](const unsigned int) { return 0u; }, here.places[set].data());
+        {
+          const unsigned int *reads  = here.rows->reads().of_set[set].data();
+          const unsigned int *places = here.places.data();
+          operation([=](const unsigned int s, const auto &use) {
+            if (first[leaves[s]] != dealii::numbers::invalid_unsigned_int)
+              owned_segment(s, use);
+            else
+              use([=](const unsigned int k) { return places[reads[k]]; });
+          });
+        }
     }
 
-    /// Calls operation(part, set, k, local patch, number in the patch) for all entries of
-    /// parts that have leaves of other ranks around them.
+    /// Calls operation(part, leaf of its rows, ghost) for all leaves of other ranks, which
+    /// are numbered from the first ghost on.
     template <typename Operation>
-    void for_each_remote_entry(const Operation &operation) const;
+    void for_each_remote_leaf(const Operation &operation) const;
 
     const PatchGrid<dim> &grid;
     const unsigned int n_dofs_per_patch;
     std::vector<Part> parts;
     std::vector<unsigned int> starts = {0};
-    /// Local patches of the leaves of all parts, and their first entries if this rank
-    /// owns them.
+    /// Local patches of the leaves of all parts, and their first entries, which are
+    /// invalid if this rank does not own them.
     std::vector<unsigned int> leaf_patches, first_entries;
     std::vector<unsigned int> remote_parts, parts_at_boundary;
   };
