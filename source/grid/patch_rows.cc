@@ -225,8 +225,8 @@ namespace mitre::grid
         AssertThrow(q != numbers::invalid_unsigned_int, ExcInternalError());
         leaf_patches.push_back(q);
         const bool is_owned = q < grid.n_owned_patches();
-        first_entries.push_back(is_owned ? q * n_dofs_per_patch :
-                                           numbers::invalid_unsigned_int);
+        first_entries.push_back(is_owned ? q * n_dofs_per_patch
+                                         : numbers::invalid_unsigned_int);
         remote = remote || !is_owned;
       }
     if (remote)
@@ -290,7 +290,8 @@ namespace mitre::grid
     if (remote_parts.empty())
       return;
 
-    // Step 1: the entries of each ghost leaf, ascending, and the local number of its first.
+    // Step 1: the entries of each ghost leaf, ascending, and the local number of its
+    // first.
     const unsigned int n_owned = grid.n_owned_patches();
     const unsigned int n_ghost = grid.n_local_patches() - n_owned;
     std::vector<std::vector<unsigned int>> entries(n_ghost);

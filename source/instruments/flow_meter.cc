@@ -1,4 +1,6 @@
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
@@ -7,6 +9,8 @@
 #include <limits>
 
 #include <mitre/base/exceptions.h>
+#include <mitre/base/parameters.h>
+#include <mitre/coupling/fe_coupling.h>
 #include <mitre/fluid/navier_stokes.h>
 #include <mitre/instruments/flow_meter.h>
 
@@ -118,6 +122,13 @@ namespace mitre::instruments
                       dealii::Patterns::Selection("positive|negative"),
                       "Whether flow in the positive or in the negative direction of the "
                       "axis counts as forward.");
+    prm.declare_entry(
+      "Normal",
+      "",
+      dealii::Patterns::List(dealii::Patterns::Double(), 0, dim),
+      "A vector across the disc, if that lies across none of the axes. "
+      "\"Centre\" then has all coordinates, and \"Axis\" and \"Position\" "
+      "have no meaning. The run must have a part.");
   }
 
 
@@ -125,9 +136,25 @@ namespace mitre::instruments
   void FlowMeter<dim>::parse_parameters(dealii::ParameterHandler &prm,
                                         const std::string &instrument)
   {
-    name = instrument;
-    disc.parse_parameters(prm, name);
-    sign = prm.get("Direction") == "positive" ? 1 : -1;
+    name   = instrument;
+    sign   = prm.get("Direction") == "positive" ? 1 : -1;
+    normal = 0.;
+    points.clear();
+    if (prm.get("Normal").empty())
+      {
+        disc.parse_parameters(prm, name);
+        return;
+      }
+    const std::string of = "Instrument " + name + ", ";
+    normal               = base::parse_point<dim>(prm.get("Normal"), of + "Normal");
+    disc.centre          = base::parse_point<dim>(prm.get("Centre"), of + "Centre");
+    disc.radius          = prm.get_double("Radius");
+    AssertThrow(normal.norm() > 0.,
+                base::UserError(of + "Normal is zero; expected is a vector across the "
+                                     "disc."));
+    AssertThrow(disc.radius > 0.,
+                base::UserError(of + "Radius is 0; a disc with a \"Normal\" needs one."));
+    normal /= normal.norm();
   }
 
 
@@ -142,11 +169,86 @@ namespace mitre::instruments
 
 
   template <int dim>
+  double FlowMeter<dim>::flow_through_inclined_disc(const Observation<dim> &observation)
+  {
+    AssertThrow(observation.coupling != nullptr,
+                base::UserError("Instrument " + name +
+                                ": a disc with a \"Normal\" needs a run with a part."));
+    const grid::PatchGrid<dim> &patch_grid = observation.fluid->space().grid();
+
+    if (points.empty())
+      {
+        // Step 1: whether it lies in the box.
+        const dealii::BoundingBox<dim> &box = patch_grid.box();
+        double h                            = std::numeric_limits<double>::max();
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            h = std::min(h, patch_grid.cell_width(patch_grid.maximum_level(), d));
+            const double reach =
+              disc.radius * std::sqrt(std::max(0., 1. - normal[d] * normal[d]));
+            AssertThrow(patch_grid.periodic()[d] ||
+                          (disc.centre[d] - reach >= box.lower_bound(d) &&
+                           disc.centre[d] + reach <= box.upper_bound(d)),
+                        base::UserError("Instrument " + name + ": " + disc.describe() +
+                                        " reaches beyond the fluid's box."));
+          }
+
+        // Step 2: two directions in it, and its points.
+        const unsigned int k =
+          std::max(3, static_cast<int>(std::ceil(2. * disc.radius / h)));
+        const dealii::QGauss<1> rule(k);
+        if constexpr (dim == 2)
+          for (unsigned int i = 0; i < k; ++i)
+            {
+              const double s = (2. * rule.point(i)[0] - 1.) * disc.radius;
+              points.push_back(disc.centre + s * dealii::cross_product_2d(normal));
+              weights.push_back(2. * disc.radius * rule.weight(i));
+            }
+        else
+          {
+            dealii::Tensor<1, dim> other;
+            const unsigned int least =
+              std::min_element(normal.begin_raw(),
+                               normal.end_raw(),
+                               [](const double a, const double b) {
+                                 return std::abs(a) < std::abs(b);
+                               }) -
+              normal.begin_raw();
+            other[least]                 = 1.;
+            dealii::Tensor<1, dim> along = dealii::cross_product_3d(normal, other);
+            along /= along.norm();
+            const dealii::Tensor<1, dim> across = dealii::cross_product_3d(normal, along);
+            const unsigned int n_angles         = 8 * k;
+            for (unsigned int i = 0; i < k; ++i)
+              for (unsigned int j = 0; j < n_angles; ++j)
+                {
+                  const double r     = rule.point(i)[0] * disc.radius;
+                  const double angle = 2. * dealii::numbers::PI * (j + 0.5) / n_angles;
+                  points.push_back(disc.centre + r * std::cos(angle) * along +
+                                   r * std::sin(angle) * across);
+                  weights.push_back(2. * dealii::numbers::PI / n_angles * r *
+                                    rule.weight(i) * disc.radius);
+                }
+          }
+      }
+
+    double flow = 0;
+    for (const auto &[i, u] :
+         observation.coupling->velocities_at(observation.fluid->velocity(), points))
+      flow += weights[i] * (u * normal);
+    return dealii::Utilities::MPI::sum(flow, patch_grid.communicator());
+  }
+
+
+  template <int dim>
   std::vector<double> FlowMeter<dim>::measure(const Observation<dim> &observation)
   {
     const double flow =
       sign *
-      compute_flow(disc, observation.fluid->space(), observation.fluid->velocity(), name);
+      (normal.norm() > 0.
+         ? flow_through_inclined_disc(observation)
+         : compute_flow(
+             disc, observation.fluid->space(), observation.fluid->velocity(), name));
     if (has_previous)
       {
         const double dt      = observation.time - previous_time;

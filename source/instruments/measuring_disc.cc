@@ -31,7 +31,7 @@ namespace mitre::instruments
                       "Radius of the disc [cm]; 0: the whole cross-section of the box.");
     prm.declare_entry("Centre",
                       "",
-                      dealii::Patterns::List(dealii::Patterns::Double(), 0, 2),
+                      dealii::Patterns::List(dealii::Patterns::Double(), 0, 3),
                       "The other coordinates of the disc's centre, for the axis y those "
                       "in x and z [cm]. Needed if the radius is not 0.");
   }

@@ -272,9 +272,9 @@ namespace mitre::simulation
     fluid->restore(fluid_state);
 
     // Step 3: the run.
-    current_time     = state.get_number("time [s]");
-    step_number      = integer("step");
-    time_step        = state.get_number("time step [s]");
+    current_time = state.get_number("time [s]");
+    step_number  = integer("step");
+    time_step    = state.get_number("time step [s]");
     if (state.numbers.count("counted from step") > 0) // not written at first
       counted_from = {integer("counted from step"),
                       state.get_number("counted from time [s]")};

@@ -895,9 +895,10 @@ namespace mitre::simulation
           << counted_from.first +
                std::lround((end_time - counted_from.second) / largest_time_step)
           << " steps of " << largest_time_step << " s"
-          << (counted_from.first == 0 ? "" :
-                " since step " + std::to_string(counted_from.first) +
-                ", of other length before");
+          << (counted_from.first == 0
+                ? ""
+                : " since step " + std::to_string(counted_from.first) +
+                    ", of other length before");
     if (is_resumed)
       out << ", resumed from " << last_checkpoint << " after step " << step_number
           << " at t = " << current_time << " s,";
@@ -1018,9 +1019,9 @@ namespace mitre::simulation
     const unsigned int n_steps =
       counted_from.first +
       std::lround((end_time - counted_from.second) / largest_time_step);
-    const auto finished        = [&]() {
+    const auto finished = [&]() {
       return wanted_courant_number > 0. ? current_time >= end_time
-                                               : step_number >= n_steps;
+                                        : step_number >= n_steps;
     };
 
     if (!is_resumed)

@@ -47,7 +47,9 @@ main()
   const auto show = [&](const std::string &what, const std::string &text) {
     std::cout << what << ":\n"
               << describe_changed_parameters(
-                   values, list(text), {"Folder", " / Label", "Part A / Output / more / "})
+                   values,
+                   list(text),
+                   {"Folder", " / Label", "Part A / Output / more / "})
               << std::endl;
   };
   show("nothing", first);

@@ -122,6 +122,31 @@ test(const structure::ElementShape shape)
   check(instruments.columns()[1], values[1], 0.0625 * through, 1e-10);
   check(instruments.columns()[2], values[2], 0.1625 * through, 1e-10);
 
+  // Through a disc across no axis: its area times the velocity at its centre, for that is
+  // linear.
+  instruments::Instruments<dim> meters;
+  const std::string inclined =
+    std::string("  set Type = flow meter\n  set Radius = 0.3\n") +
+    (dim == 3 ? "  set Normal = 2, 1, 2\n  set Centre = 1, 0.5, 0.45\n"
+              : "  set Normal = 0.6, 0.8\n  set Centre = 1, 0.5\n");
+  parse(meters,
+        "set Instruments = meter\nsubsection Instrument meter\n" + inclined + "end\n");
+  Point<dim> centre;
+  dealii::Tensor<1, dim> normal;
+  for (unsigned int d = 0; d < dim; ++d)
+    {
+      centre[d] = d == 0 ? 1. : d == 1 ? 0.5 : 0.45;
+      normal[d] = dim == 2 ? (d == 0 ? 0.6 : 0.8) : (d == 1 ? 1. / 3. : 2. / 3.);
+    }
+  double expected = 0;
+  for (unsigned int d = 0; d < dim; ++d)
+    expected += (dim == 3 ? 0.09 * dealii::numbers::PI : 0.6) * normal[d] *
+                linear_velocity<dim>(centre, d);
+  check("through an inclined disc",
+        meters.measure({0., 0.1, flow.fluid.get(), {{&body, &X, &U}}, &coupling})[0],
+        expected,
+        1e-10);
+
   const auto error_of = [&](const std::string &text) {
     expect_error([&]() {
       instruments::Instruments<dim> wrong;
@@ -131,6 +156,22 @@ test(const structure::ElementShape shape)
       wrong.measure({0., 0., flow.fluid.get(), {{&body, &X, &U}}, &coupling});
     });
   };
+  const auto error_of_meter = [&](const std::string &text) {
+    expect_error([&]() {
+      instruments::Instruments<dim> wrong;
+      parse(wrong,
+            "set Instruments = meter\nsubsection Instrument meter\n  set Type = flow "
+            "meter\n" +
+              text + "end\n");
+      wrong.measure({0., 0., flow.fluid.get(), {{&body, &X, &U}}, &coupling});
+    });
+  };
+  const std::string across = "  set Normal = 1, 1" + zero + "\n";
+  error_of_meter(across + "  set Centre = 1, 0.5" + zero + "5\n");
+  error_of_meter(across + "  set Centre = 1\n  set Radius = 0.1\n");
+  error_of_meter(across + "  set Centre = 1, 0.5" + zero + "5\n  set Radius = 3\n");
+  error_of_meter("  set Normal = 0, 0" + zero + "\n  set Centre = 1, 0.5" + zero +
+                 "5\n  set Radius = 0.1\n");
   error_of("  set Part = valve\n");
   error_of("  set Part = block\n  set Direction = 0, 0" + zero + "\n");
 }

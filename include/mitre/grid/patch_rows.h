@@ -355,8 +355,8 @@ namespace mitre::grid
         }
     }
 
-    /// Calls operation(part, leaf of its rows, ghost) for all leaves of other ranks, which
-    /// are numbered from the first ghost on.
+    /// Calls operation(part, leaf of its rows, ghost) for all leaves of other ranks,
+    /// which are numbered from the first ghost on.
     template <typename Operation>
     void for_each_remote_leaf(const Operation &operation) const;
 

@@ -13,6 +13,10 @@ namespace mitre::instruments
    * coarsest cells there, so that all levels have it). Through a whole cross-section this
    * is the flux that the discrete divergence knows.
    *
+   * Through a disc across any other direction it is @f$Q = \int u \cdot n\, dA@f$ of the
+   * velocity as coupling::FECoupling::velocities_at() interpolates it, by a rule of Gauss
+   * points along the radius and equal angles, two a cell or more.
+   *
    * Also the volumes that have passed forward and back since the first measurement,
    * @f$\int \max(\pm Q, 0)\, dt@f$ with Q linear between measurements.
    */
@@ -34,9 +38,18 @@ namespace mitre::instruments
     void set_state(const std::vector<double> &state) override;
 
   private:
+    double flow_through_inclined_disc(const Observation<dim> &observation);
+
     std::string name;
     MeasuringDisc<dim> disc;
     double sign = 1;
+
+    /// Of unit length, for an inclined disc; otherwise zero.
+    dealii::Tensor<1, dim> normal;
+
+    /// Of an inclined disc: quadrature points, and weights [cm^(dim-1)].
+    std::vector<dealii::Point<dim>> points;
+    std::vector<double> weights;
 
     bool has_previous      = false;
     double previous_time   = 0;
