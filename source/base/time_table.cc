@@ -48,8 +48,10 @@ namespace mitre::base
                     UserError(file_name + ":" + std::to_string(table.heading_line) +
                               ": the first column must be time, in [s] or [ms]; found '" +
                               table.names[0] + " [" + table.units[0] + "]'."));
-        times_ = table.values[0];
+        times_        = table.values[0];
+        heading_line_ = table.heading_line;
         names_.assign(table.names.begin() + 1, table.names.end());
+        units_.assign(table.units.begin() + 1, table.units.end());
         values_.assign(table.values.begin() + 1, table.values.end());
       }
     for (unsigned int i = 1; i < times_.size(); ++i)
@@ -108,13 +110,23 @@ namespace mitre::base
   }
 
 
-  unsigned int TimeTable::column(const std::string &name) const
+  unsigned int TimeTable::column(const std::string &name,
+                                 const std::string &quantity) const
   {
     const auto found = std::find(names_.begin(), names_.end(), name);
     AssertThrow(found != names_.end(),
                 UserError(file_name_ + ": there is no column '" + name + "'. " +
                           suggest_name(name, names_)));
-    return found - names_.begin();
+    const unsigned int index = found - names_.begin();
+    if (quantity.empty() || quantity_of_unit(units_[index]) == quantity)
+      return index;
+    std::string expected;
+    for (const std::string &unit : known_units())
+      if (quantity_of_unit(unit) == quantity)
+        expected += (expected.empty() ? "[" : ", [") + unit + "]";
+    throw UserError(file_name_ + ":" + std::to_string(heading_line_) + ": the column '" +
+                    name + " [" + units_[index] + "]' is needed as a " + quantity +
+                    "; expected one of the units " + expected + ".");
   }
 
 

@@ -1,7 +1,7 @@
 #include <deal.II/base/exceptions.h>
 
 #include <algorithm>
-#include <utility>
+#include <string>
 
 #include <mitre/base/exceptions.h>
 #include <mitre/base/nearest_name.h>
@@ -11,33 +11,71 @@ namespace mitre::base
 {
   namespace
   {
-    const std::vector<std::pair<std::string, double>> units = {
-      {"1", 1.},           {"s", 1.},     {"ms", 1e-3},  {"cm", 1.},
-      {"mm", 0.1},         {"m", 100.},   {"cm^2", 1.},  {"mm^2", 0.01},
-      {"cm^3", 1.},        {"mL", 1.},    {"mL/s", 1.},  {"cm^3/s", 1.},
-      {"L/min", 1e3 / 60}, {"cm/s", 1.},  {"m/s", 100.}, {"g", 1.},
-      {"dyn", 1.},         {"N", 1e5},    {"mN", 1e2},   {"dyn/cm^2", 1.},
-      {"Pa", 10.},         {"kPa", 1e4},  {"MPa", 1e7},  {"dyn/cm", 1.},
-      {"N/m", 1e3},        {"mmHg", mmHg}};
-  }
+    struct Unit
+    {
+      std::string name;
+      double in_cgs;
+      std::string quantity;
+    };
+
+    const std::vector<Unit> units = {{"1", 1., "number"},
+                                     {"s", 1., "time"},
+                                     {"ms", 1e-3, "time"},
+                                     {"cm", 1., "length"},
+                                     {"mm", 0.1, "length"},
+                                     {"m", 100., "length"},
+                                     {"cm^2", 1., "area"},
+                                     {"mm^2", 0.01, "area"},
+                                     {"cm^3", 1., "volume"},
+                                     {"mL", 1., "volume"},
+                                     {"mL/s", 1., "flow"},
+                                     {"cm^3/s", 1., "flow"},
+                                     {"L/min", 1e3 / 60, "flow"},
+                                     {"cm/s", 1., "velocity"},
+                                     {"m/s", 100., "velocity"},
+                                     {"g", 1., "mass"},
+                                     {"dyn", 1., "force"},
+                                     {"N", 1e5, "force"},
+                                     {"mN", 1e2, "force"},
+                                     {"dyn/cm^2", 1., "pressure"},
+                                     {"Pa", 10., "pressure"},
+                                     {"kPa", 1e4, "pressure"},
+                                     {"MPa", 1e7, "pressure"},
+                                     {"dyn/cm", 1., "force per length"},
+                                     {"N/m", 1e3, "force per length"},
+                                     {"mmHg", mmHg, "pressure"}};
+
+
+    const Unit &find_unit(const std::string &unit)
+    {
+      const auto found = std::find_if(units.begin(), units.end(), [&](const Unit &entry) {
+        return entry.name == unit;
+      });
+      AssertThrow(found != units.end(),
+                  UserError("There is no unit '" + unit + "'. " +
+                            suggest_name(unit, known_units())));
+      return *found;
+    }
+  } // namespace
 
 
   double unit_in_cgs(const std::string &unit)
   {
-    const auto found = std::find_if(
-      units.begin(), units.end(), [&](const auto &entry) { return entry.first == unit; });
-    AssertThrow(
-      found != units.end(),
-      UserError("There is no unit '" + unit + "'. " + suggest_name(unit, known_units())));
-    return found->second;
+    return find_unit(unit).in_cgs;
+  }
+
+
+  std::string quantity_of_unit(const std::string &unit)
+  {
+    return find_unit(unit).quantity;
   }
 
 
   std::vector<std::string> known_units()
   {
     std::vector<std::string> names;
-    for (const auto &entry : units)
-      names.push_back(entry.first);
+    for (const Unit &entry : units)
+      names.push_back(entry.name);
     return names;
   }
 } // namespace mitre::base

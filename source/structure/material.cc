@@ -39,7 +39,7 @@ namespace mitre::structure
   void StiffnessFactor::parse_parameters(dealii::ParameterHandler &prm,
                                          const std::string &what)
   {
-    TimeFunction::parse_parameters(prm, "Time factor", "1", what);
+    TimeFunction::parse_parameters(prm, "Time factor", "1", what, "number");
   }
 
 

@@ -51,7 +51,8 @@ namespace mitre::structure
   void TimeFunction::parse_parameters(dealii::ParameterHandler &prm,
                                       const std::string &name,
                                       const std::string &default_value,
-                                      const std::string &what)
+                                      const std::string &what,
+                                      const std::string &quantity)
   {
     const std::string text        = prm.get(name);
     const std::string file        = prm.get(name + " table");
@@ -71,7 +72,7 @@ namespace mitre::structure
                                 "'; expected one of them."));
     const auto new_table = std::make_shared<const base::TimeTable>(
       file, parse_extension(prm.get(name + " extension")));
-    column = new_table->column(column_name);
+    column = new_table->column(column_name, quantity);
     table  = new_table;
   }
 

@@ -50,6 +50,17 @@ main()
   try_to_read(heading + "0,1\n1,1\n", periodic);
   try
     {
+      std::ofstream("table.csv") << heading << "0,1\n1,2\n";
+      const TimeTable table("table.csv", clamped);
+      std::cout << table.column("flow", "flow") << std::endl;
+      table.column("flow", "pressure");
+    }
+  catch (const UserError &error)
+    {
+      std::cout << error.what() << std::endl;
+    }
+  try
+    {
       TimeTable("missing.csv", clamped);
     }
   catch (const UserError &error)

@@ -243,6 +243,17 @@ errors = [
         ("an unknown unit",
          dict(change=[use_table], files={"table.csv": table.replace("mmHg", "cmHg")}),
          ["table.csv:1:", "cmHg", "mmHg"]),
+        ("a length where a pressure is needed",
+         dict(change=[use_table], files={"table.csv": table.replace("mmHg", "cm")}),
+         ["table.csv:1: the column 'atrium [cm]' is needed as a pressure", "[mmHg]"]),
+        ("an inclined disc without a radius",
+         dict(change=[("    set Centre   = 0.5, 0.5\n", "    set Centre   = 0.5, 0.5, 0.5\n"
+                       "    set Normal   = 1, 1, 0\n"), ("    set Radius   = 0.3\n", "")]),
+         ["Radius is 0; a disc with a \"Normal\" needs one"]),
+        ("an inclined disc beyond the box",
+         dict(change=[("    set Centre   = 0.5, 0.5\n", "    set Centre   = 0.5, 0.5, 0.9\n"
+                       "    set Normal   = 1, 1, 0\n")]),
+         ["reaches beyond the fluid's box"]),
         ("a time that does not increase",
          dict(change=[use_table], files={"table.csv": table.replace("0.01,", "0.004,")}),
          ["table.csv:4:", "the time 0.004 is not later than the one before it"]),

@@ -48,9 +48,10 @@ namespace mitre::base
 
     /**
      * The index of the value column @p name; UserError, which lists the names there are,
-     * if there is none.
+     * if there is none. If a @p quantity is given, such as "pressure", UserError unless
+     * the column's unit measures it (quantity_of_unit()).
      */
-    unsigned int column(const std::string &name) const;
+    unsigned int column(const std::string &name, const std::string &quantity = "") const;
 
     /** The value of a column at any time, in cm, g, s. */
     double value(const unsigned int column, const double t) const;
@@ -70,7 +71,8 @@ namespace mitre::base
 
     std::string file_name_;
     Extension extension_;
-    std::vector<std::string> names_;
+    unsigned int heading_line_ = 0;
+    std::vector<std::string> names_, units_;
     std::vector<double> times_;
     std::vector<std::vector<double>> values_; // [column][line]
     std::vector<std::vector<double>> slopes_; // [column][line]

@@ -16,6 +16,13 @@ namespace mitre::base
    */
   double unit_in_cgs(const std::string &unit);
 
+  /**
+   * What a unit that unit_in_cgs() knows measures: "number" (of "1"), "time", "length",
+   * "area", "volume", "flow", "velocity", "mass", "force", "pressure" or
+   * "force per length".
+   */
+  std::string quantity_of_unit(const std::string &unit);
+
   /** The names that unit_in_cgs() knows. */
   std::vector<std::string> known_units();
 } // namespace mitre::base

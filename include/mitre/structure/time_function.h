@@ -37,10 +37,12 @@ namespace mitre::structure
 
     /// @param what it belongs to, for messages. Throws base::UserError, which names it,
     /// if there is a table as well as an expression other than @p default_value.
+    /// @param quantity that the table's column must have the unit of; empty: any
     void parse_parameters(dealii::ParameterHandler &prm,
                           const std::string &name,
                           const std::string &default_value,
-                          const std::string &what);
+                          const std::string &what,
+                          const std::string &quantity);
 
     double value(const double t) const;
 

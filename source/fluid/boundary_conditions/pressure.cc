@@ -51,7 +51,7 @@ namespace mitre::fluid
         if (prm.get("Table column").empty())
           throw base::UserError(owner +
                                 " names a \"Table file\", but no \"Table column\".");
-        column = table->column(prm.get("Table column"));
+        column = table->column(prm.get("Table column"), "pressure");
       }
   }
 

@@ -114,7 +114,7 @@ namespace mitre::structure
     table = std::make_shared<const base::TimeTable>(
       file, parse_extension(prm.get("Displacement extension")));
     for (const std::string &name : names)
-      columns.push_back(table->column(name));
+      columns.push_back(table->column(name, "length"));
   }
 
 

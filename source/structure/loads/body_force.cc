@@ -22,7 +22,7 @@ namespace mitre::structure
                                         const std::string &what)
   {
     force.parse_parameters(prm, "Force", what);
-    factor.parse_parameters(prm, "Time factor", "1", what);
+    factor.parse_parameters(prm, "Time factor", "1", what, "number");
     this->volume.parse_parameters(prm, what);
   }
 

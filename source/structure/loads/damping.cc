@@ -20,7 +20,7 @@ namespace mitre::structure
   void Damping<dim>::parse_parameters(dealii::ParameterHandler &prm,
                                       const std::string &what)
   {
-    damping.parse_parameters(prm, "Damping", "0", what);
+    damping.parse_parameters(prm, "Damping", "0", what, "");
     this->volume.parse_parameters(prm, what);
   }
 

@@ -26,7 +26,7 @@ namespace mitre::structure
   void Pressure<dim>::parse_parameters(dealii::ParameterHandler &prm,
                                        const std::string &what)
   {
-    pressure.parse_parameters(prm, "Pressure", "0", what);
+    pressure.parse_parameters(prm, "Pressure", "0", what, "pressure");
     follower = prm.get("Surface") == "deformed";
     this->surface.parse_parameters(prm, what);
   }

@@ -22,7 +22,7 @@ namespace mitre::structure
                                        const std::string &what)
   {
     traction.parse_parameters(prm, "Traction", what);
-    factor.parse_parameters(prm, "Time factor", "1", what);
+    factor.parse_parameters(prm, "Time factor", "1", what, "number");
     this->surface.parse_parameters(prm, what);
   }
 
