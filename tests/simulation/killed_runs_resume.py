@@ -49,8 +49,8 @@ def kill_session(leader):
 
 # The end is too far for any of the killed runs to reach it, however fast or slow the machine is
 # just then; when the last has been killed, it is brought near.
-step = 4e-3 * 3 / max(n_kills, 3)
-parameters = dict(period="2", kept="2", end="%g" % (1e5 * step), dt="%g" % step, fields="0.04")
+step = 5e-4
+parameters = dict(period="2", kept="2", end="%g" % (1e5 * step), dt="%g" % step, fields="0.01")
 
 killed, last, resumed = 0, "", 0
 case.write_parameters("killed", **parameters)
