@@ -493,8 +493,8 @@ errors = [
          ["Instrument flow: the pressure is wanted at (0.5 0.5 1.2) cm, outside"]),
         ("a disc with three coordinates across its axis",
          dict(change=[("Centre   = 0.5, 0.5", "Centre   = 0.5, 0.5, 0.5")]),
-         ["'Centre' in the subsection Instruments / Instrument flow", "'0.5, 0.5, 0.5'",
-          "but must match", "length 0...2"]),
+         ["Instrument flow: Centre has 3 number(s), expected are the 2 coordinate(s) across "
+          "the axis x"]),
         ("an output folder that is a file", dict(change=[("folder = run", "folder = cube.msh/run")]),
          ["Cannot make the folder cube.msh/run", "Not a directory"]),
         ("the same, found by `--validate`",
