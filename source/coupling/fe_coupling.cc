@@ -45,6 +45,15 @@ namespace mitre::coupling
         "quadrature points in the elements; nodal: to and from the nodes "
         "alone, with a lumped mass matrix, which is cheaper but lets fluid "
         "through where elements are larger than the grid's cells.");
+    if (!of_fibres)
+      prm.declare_entry(
+        "Split forces",
+        "false",
+        dealii::Patterns::Bool(),
+        "Whether the transmission force -P N of the surface is spread from points on "
+        "the surface, as the pressure jumps there, instead of together with the force "
+        "of the volume over the width of an element: more accurate where elements are "
+        "larger than the grid's cells, and slower.");
     prm.declare_entry("Grid level",
                       "finest",
                       dealii::Patterns::Anything(),
@@ -64,6 +73,7 @@ namespace mitre::coupling
         point_density = prm.get_double("Point density");
         points =
           prm.get("Coupling") == "nodal" ? PointChoice::nodes : PointChoice::quadrature;
+        split_forces = prm.get_bool("Split forces");
       }
     const std::string level_text = prm.get("Grid level");
     level                        = -1;
@@ -226,6 +236,67 @@ namespace mitre::coupling
   }
 
 
+  namespace
+  {
+    /// Coordinates of a point relative to a patch, in grid spacings.
+    template <int dim>
+    std::array<double, dim> coordinates_in_patch(const grid::PatchGrid<dim> &grid,
+                                                 const unsigned int p,
+                                                 const dealii::Point<dim> &x)
+    {
+      std::array<double, dim> coordinates;
+      for (unsigned int d = 0; d < dim; ++d)
+        coordinates[d] =
+          (grid.pull_into_box(x[d], d) - grid.patch(p).lower[d]) / grid.patch(p).h[d];
+      return coordinates;
+    }
+
+
+    /// Calls function(entry, weight) with the entries of component @p c of a patch about
+    /// a point; one point at a time, for where there are few.
+    template <typename Kernel, int dim, typename Function>
+    void for_each_entry(const std::array<double, dim> &coordinates,
+                        const PaddedPatch<dim> &patch,
+                        const unsigned int c,
+                        const Function &function)
+    {
+      constexpr int most = std::max(Kernel::Normal::n_points, Kernel::Across::n_points);
+      std::array<std::array<double, most>, dim> weights;
+      std::array<int, dim> first, n;
+      const auto set = [&](const auto &kernel, const unsigned int d) {
+        using Function1D = std::decay_t<decltype(kernel)>;
+        const double x =
+          coordinates[d] + static_cast<double>(patch.width) - (d == c ? 0. : 0.5);
+        const double base = std::floor(Function1D::n_points % 2 == 0 ? x : x + 0.5);
+        const auto w      = Function1D::weights(x - base);
+        n[d]              = Function1D::n_points;
+        first[d]          = static_cast<int>(base) - (n[d] - 1) / 2;
+        std::copy(w.begin(), w.end(), weights[d].begin());
+      };
+      for (unsigned int d = 0; d < dim; ++d)
+        if (d == c)
+          set(typename Kernel::Normal(), d);
+        else
+          set(typename Kernel::Across(), d);
+
+      const auto &extents = patch.extents[c];
+      for (int k = 0; k < (dim == 3 ? n[dim - 1] : 1); ++k)
+        for (int j = 0; j < n[1]; ++j)
+          for (int i = 0; i < n[0]; ++i)
+            {
+              std::size_t entry = first[0] + i + extents[0] * (first[1] + j);
+              double weight     = weights[0][i] * weights[1][j];
+              if constexpr (dim == 3)
+                {
+                  entry += extents[0] * extents[1] * (first[2] + k);
+                  weight *= weights[2][k];
+                }
+              function(entry, weight);
+            }
+    }
+  } // namespace
+
+
   template <int dim>
   std::vector<std::pair<std::size_t, dealii::Tensor<1, dim>>>
   FECoupling<dim>::velocities_at(const VectorType &u,
@@ -246,7 +317,6 @@ namespace mitre::coupling
 
     // Step 2: their velocities.
     const VectorType &imported = halo->import(u);
-    const double width         = halo->width();
     std::vector<std::pair<std::size_t, dealii::Tensor<1, dim>>> result;
     unsigned int gathered = dealii::numbers::invalid_unsigned_int;
     for (const auto &[p, i] : order)
@@ -257,48 +327,12 @@ namespace mitre::coupling
         gathered = p;
 
         dealii::Tensor<1, dim> velocity;
+        const auto coordinates = coordinates_in_patch(grid, p, points[i]);
         for (unsigned int c = 0; c < dim; ++c)
-          {
-            std::array<std::array<double, 3>, dim> weights;
-            std::array<unsigned int, dim> first;
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                const double x =
-                  (grid.pull_into_box(points[i][d], d) - grid.patch(p).lower[d]) /
-                    grid.patch(p).h[d] +
-                  width - (d == c ? 0. : 0.5);
-                weights[d] = {{0., 0., 0.}};
-                if (d == c)
-                  {
-                    const double base = std::floor(x + 0.5);
-                    weights[d]        = Kernel::Normal::weights(x - base);
-                    first[d]          = static_cast<unsigned int>(base) - 1;
-                  }
-                else
-                  {
-                    const double base = std::floor(x);
-                    const auto two    = Kernel::Across::weights(x - base);
-                    weights[d]        = {{two[0], two[1], 0.}};
-                    first[d]          = static_cast<unsigned int>(base);
-                  }
-              }
-            double sum = 0;
-            for (unsigned int k = 0; k < (dim == 3 ? 3 : 1); ++k)
-              for (unsigned int j = 0; j < 3; ++j)
-                for (unsigned int m = 0; m < 3; ++m)
-                  {
-                    const auto &extents     = padded->extents[c];
-                    const std::size_t entry = first[0] + m + extents[0] * (first[1] + j);
-                    if constexpr (dim == 3)
-                      sum +=
-                        weights[0][m] * weights[1][j] * weights[2][k] *
-                        padded
-                          ->values[c][entry + extents[0] * extents[1] * (first[2] + k)];
-                    else
-                      sum += weights[0][m] * weights[1][j] * padded->values[c][entry];
-                  }
-            velocity[c] = sum;
-          }
+          for_each_entry<Kernel, dim>(
+            coordinates, *padded, c, [&](const std::size_t entry, const double weight) {
+              velocity[c] += weight * padded->values[c][entry];
+            });
         result.emplace_back(i, velocity);
       }
     return result;
@@ -308,7 +342,8 @@ namespace mitre::coupling
   template <int dim>
   void FECoupling<dim>::spread(const std::vector<const VectorType *> &F,
                                VectorType &f,
-                               VectorType *total)
+                               VectorType *total,
+                               const std::vector<PointForces<dim>> &extra)
   {
     AssertDimension(F.size(), parts.size());
     Assert(halo != nullptr, dealii::ExcNotInitialized());
@@ -320,9 +355,21 @@ namespace mitre::coupling
         parts[i].ghosted.update_ghost_values();
       }
 
+    // The points of their own by patch: which of the sets, and which in it.
+    std::vector<std::vector<std::pair<unsigned int, std::size_t>>> own_points;
+    if (!extra.empty())
+      own_points.resize(grid.n_owned_patches());
+    for (unsigned int set = 0; set < extra.size(); ++set)
+      for (std::size_t i = 0; i < extra[set].points.size(); ++i)
+        {
+          const unsigned int p = grid.locate(extra[set].points[i]);
+          if (p != dealii::numbers::invalid_unsigned_int)
+            own_points[p].emplace_back(set, i);
+        }
+
     halo->begin_scatter();
     for (unsigned int p = 0; p < grid.n_owned_patches(); ++p)
-      if (n_points(p) > 0)
+      if (n_points(p) > 0 || (!own_points.empty() && !own_points[p].empty()))
         {
           for (std::vector<double> &values : padded->values)
             std::fill(values.begin(), values.end(), 0.);
@@ -334,10 +381,30 @@ namespace mitre::coupling
                          p,
                          part.ghosted.begin(),
                          *padded);
+          if (!own_points.empty())
+            for (const auto &[set, i] : own_points[p])
+              spread_one(extra[set], i, p);
           for (unsigned int c = 0; c < dim; ++c)
             halo->scatter_add(p, c, padded->values[c].data());
         }
     halo->end_scatter(f, total);
+  }
+
+
+  template <int dim>
+  void FECoupling<dim>::spread_one(const PointForces<dim> &set,
+                                   const std::size_t i,
+                                   const unsigned int p)
+  {
+    const auto coordinates = coordinates_in_patch(grid, p, set.points[i]);
+    with_kernel(parts[set.part].parameters.kernel, [&](const auto kernel) {
+      using Kernel = std::decay_t<decltype(kernel)>;
+      for (unsigned int c = 0; c < dim; ++c)
+        for_each_entry<Kernel, dim>(
+          coordinates, *padded, c, [&](const std::size_t entry, const double weight) {
+            padded->values[c][entry] += weight * set.forces[i][c];
+          });
+    });
   }
 
 

@@ -396,8 +396,23 @@ namespace mitre::simulation
                                     ": the parameter \"Mesh file\" is not set.");
             structure::Mesh<dim> mesh =
               io::read_mesh<dim>(body_parameters.mesh_file, communicator);
-            part.body = std::make_unique<structure::FiniteElementBody<dim>>(
+            auto body = std::make_unique<structure::FiniteElementBody<dim>>(
               std::move(body_parameters), std::move(mesh), communicator);
+            if (part.coupling_parameters.split_forces)
+              {
+                if (body->is_rigid())
+                  throw base::UserError("Part " + name +
+                                        ": \"Split forces\" is true, but the part is "
+                                        "rigid and has no elastic forces.");
+                if (part.coupling_parameters.points == coupling::PointChoice::nodes)
+                  throw base::UserError("Part " + name +
+                                        ": \"Split forces\" is true, for which "
+                                        "\"Coupling\" must be 'elemental'; found "
+                                        "'nodal'.");
+                part.tractions =
+                  std::make_unique<structure::SurfaceTractions<dim>>(*body);
+              }
+            part.body = std::move(body);
           }
 
         // parts must lie in the box before the grid can be built around them
@@ -560,18 +575,53 @@ namespace mitre::simulation
   void Simulation<dim>::spread_forces(const bool middle, const double t)
   {
     std::vector<const structure::VectorType *> forces;
-    for (Part &part : parts)
+    std::vector<coupling::PointForces<dim>> extra;
+    for (unsigned int i = 0; i < parts.size(); ++i)
       {
+        Part &part       = parts[i];
         const bool rigid = part.body->is_rigid();
-        part.body->compute_force_density(middle ? (rigid ? part.pulled_half : part.X_half)
-                                                : part.force_positions(),
-                                         part.U,
-                                         t,
-                                         part.F);
+        const structure::VectorType &X =
+          middle ? (rigid ? part.pulled_half : part.X_half) : part.force_positions();
+        part.body->compute_force_density(X, part.U, t, part.F);
+        if (part.tractions)
+          split_forces(i, X, t, extra);
         forces.push_back(&part.F);
       }
     add_tie_forces(middle);
-    fe_coupling->spread(forces, grid_force);
+    fe_coupling->spread(forces, grid_force, nullptr, extra);
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::split_forces(const unsigned int i,
+                                     const structure::VectorType &X,
+                                     const double t,
+                                     std::vector<coupling::PointForces<dim>> &extra)
+  {
+    // Step 1: the forces on those points that lie in patches of this rank.
+    Part &part      = parts[i];
+    const int level = part.coupling_parameters.level;
+    const double h  = patch_grid->cell_width(
+      level < 0 ? static_cast<int>(patch_grid->maximum_level()) : level, 0);
+    structure::SurfaceForces<dim> surface;
+    part.tractions->compute(
+      part.body->to_mesh_order(X),
+      t,
+      h / part.coupling_parameters.point_density,
+      [this](const Point<dim> &x) {
+        return patch_grid->locate(x) != numbers::invalid_unsigned_int;
+      },
+      surface);
+    Utilities::MPI::sum(surface.moments, communicator, surface.moments);
+
+    // Step 2: what the force density has of them.
+    structure::VectorType moments, density;
+    part.body->initialize_vector(moments);
+    part.body->initialize_vector(density);
+    part.body->from_mesh_order(surface.moments, moments);
+    part.body->project(density, moments);
+    part.F -= density;
+    extra.push_back({i, std::move(surface.points), std::move(surface.forces)});
   }
 
 

@@ -4,6 +4,7 @@
 
 #include <mitre/base/exceptions.h>
 #include <mitre/base/parameters.h>
+#include <mitre/structure/face_frame.h>
 #include <mitre/structure/regions.h>
 
 namespace mitre::structure
@@ -27,17 +28,6 @@ namespace mitre::structure
     }
 
 
-    /// The normal of a face as long as its area, from the derivatives of the position
-    /// along it.
-    template <int dim>
-    dealii::Tensor<1, dim>
-    area_vector(const std::array<dealii::Tensor<1, dim>, dim - 1> &tangents)
-    {
-      if constexpr (dim == 2)
-        return dealii::cross_product_2d(tangents[0]);
-      else
-        return dealii::cross_product_3d(tangents[0], tangents[1]);
-    }
   } // namespace
 
 
@@ -111,48 +101,28 @@ namespace mitre::structure
     n_points                               = rule.size();
     n_nodes                                = element.n_nodes();
 
-    std::vector<dealii::Point<dim>> corners;
-    dealii::Point<dim> middle;
-    for (unsigned int v = 0;
-         v < (mesh.shape == ElementShape::simplex ? dim + 1 : 1 << dim);
-         ++v)
-      {
-        dealii::Point<dim> corner;
-        for (unsigned int d = 0; d < dim; ++d)
-          corner[d] =
-            mesh.shape == ElementShape::simplex ? (v == d + 1) : ((v >> d) & 1u);
-        corners.push_back(corner);
-        middle += corner;
-      }
-    middle /= static_cast<double>(corners.size());
-
     tables.clear();
-    for (const std::vector<unsigned int> &face : face_corners<dim>(mesh.shape))
+    for (unsigned int f = 0; f < face_corners<dim>(mesh.shape).size(); ++f)
       {
-        std::array<dealii::Tensor<1, dim>, dim - 1> tangents;
-        for (unsigned int k = 0; k + 1 < dim; ++k)
-          tangents[k] = corners[face[k + 1]] - corners[face[0]];
-        // Where they make a normal that points inward, one is turned round.
-        const double orientation =
-          area_vector<dim>(tangents) * (corners[face[0]] - middle) > 0 ? 1 : -1;
-
+        const FaceFrame<dim> frame = face_frame<dim>(mesh.shape, f);
         Table table;
         table.weights = rule.get_weights();
         table.on_face.assign(n_nodes, false);
         for (unsigned int q = 0; q < n_points; ++q)
           {
-            dealii::Point<dim> xi = corners[face[0]];
+            dealii::Point<dim> xi = frame.origin;
             for (unsigned int k = 0; k + 1 < dim; ++k)
-              xi += rule.point(q)[k] * tangents[k];
+              xi += rule.point(q)[k] * frame.tangents[k];
             for (unsigned int a = 0; a < n_nodes; ++a)
               {
                 table.values.push_back(element.value(a, xi));
                 if (std::abs(table.values.back()) > 1e-12)
                   table.on_face[a] = true;
                 std::array<double, dim - 1> derivatives;
+                // where the normal would point inward, one tangent is turned round
                 for (unsigned int k = 0; k + 1 < dim; ++k)
-                  derivatives[k] =
-                    element.gradient(a, xi) * tangents[k] * (k == 0 ? orientation : 1.);
+                  derivatives[k] = element.gradient(a, xi) * frame.tangents[k] *
+                                   (k == 0 ? frame.orientation : 1.);
                 table.derivatives.push_back(derivatives);
               }
           }

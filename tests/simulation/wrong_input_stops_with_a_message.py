@@ -246,6 +246,10 @@ errors = [
         ("a length where a pressure is needed",
          dict(change=[use_table], files={"table.csv": table.replace("mmHg", "cm")}),
          ["table.csv:1: the column 'atrium [cm]' is needed as a pressure", "[mmHg]"]),
+        ("split forces with nodal coupling",
+         dict(change=[("set Constraints = hold\n", "set Constraints = hold\n"
+                       "    set Split forces = true\n    set Coupling = nodal\n")]),
+         ["Part cube: \"Split forces\" is true, for which \"Coupling\" must be 'elemental'"]),
         ("an inclined disc without a radius",
          dict(change=[("    set Centre   = 0.5, 0.5\n", "    set Centre   = 0.5, 0.5, 0.5\n"
                        "    set Normal   = 1, 1, 0\n"), ("    set Radius   = 0.3\n", "")]),

@@ -29,11 +29,26 @@ namespace mitre::coupling
     /// Level of the grid about the part; -1: the finest.
     int level = -1;
 
+    /// Whether the transmission forces of the surface are spread from there, see
+    /// structure::SurfaceTractions.
+    bool split_forces = false;
+
     /// @param of_fibres whose points are always their nodes
     static void declare_parameters(dealii::ParameterHandler &prm,
                                    const bool of_fibres = false);
 
     void parse_parameters(dealii::ParameterHandler &prm, const bool of_fibres = false);
+  };
+
+
+  /// Forces [dyn] at points of their own, which a part's kernel spreads beside its force
+  /// density.
+  template <int dim>
+  struct PointForces
+  {
+    unsigned int part;
+    std::vector<dealii::Point<dim>> points;
+    std::vector<dealii::Tensor<1, dim>> forces;
   };
 
 
@@ -121,10 +136,13 @@ namespace mitre::coupling
      * Grid force density @p f [dyn/cm^dim] (2.40) from nodal force densities @p F
      * [dyn/cm^dim] per reference volume. @p total, if given, receives the forces [dyn] on
      * the faces before the division by control volumes. Collective.
+     *
+     * @param extra are spread, too, from those points that lie in owned patches
      */
     void spread(const std::vector<const VectorType *> &F,
                 VectorType &f,
-                VectorType *total = nullptr);
+                VectorType *total                          = nullptr,
+                const std::vector<PointForces<dim>> &extra = {});
 
     /// The distance of a part's points along edges of its elements in grid spacings,
     /// where it is largest (PartPoints::largest_spacing()). Collective.
@@ -151,6 +169,10 @@ namespace mitre::coupling
     std::size_t n_points() const;
 
   private:
+    /// Adds the i-th force of @p set to the padded patch, which is that of patch @p p.
+    void
+    spread_one(const PointForces<dim> &set, const std::size_t i, const unsigned int p);
+
     struct Part
     {
       CouplingParameters parameters;

@@ -24,6 +24,7 @@
 #include <mitre/simulation/validation.h>
 #include <mitre/structure/body.h>
 #include <mitre/structure/stable_time_step.h>
+#include <mitre/structure/surface_tractions.h>
 #include <mitre/structure/tie.h>
 
 namespace mitre::simulation
@@ -113,6 +114,9 @@ namespace mitre::simulation
       coupling::CouplingParameters coupling_parameters;
       bool spacing_is_warned_of = false;
 
+      /// Where forces are split; otherwise null.
+      std::unique_ptr<structure::SurfaceTractions<dim>> tractions;
+
       /// Positions at the beginning and in the middle of the step [cm], velocity [cm/s]
       /// and force density [dyn/cm^dim].
       structure::VectorType X, X_half, U, F;
@@ -182,6 +186,13 @@ namespace mitre::simulation
     void prepare_output();
     void read_parts(dealii::ParameterHandler &prm);
     void read_ties(dealii::ParameterHandler &prm);
+
+    /// Takes the transmission forces of a part's surface at positions @p X out of its
+    /// force density and appends them to @p extra.
+    void split_forces(const unsigned int part,
+                      const structure::VectorType &X,
+                      const double t,
+                      std::vector<coupling::PointForces<dim>> &extra);
 
     /// Adds the forces of ties to the force densities of the parts; @p middle as in
     /// spread_forces().
