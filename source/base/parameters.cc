@@ -430,6 +430,13 @@ namespace mitre::base
     {
       const std::vector<Statement> statements = mark_overridden(all_statements);
 
+      for (const Statement &statement : statements)
+        AssertThrow(is_utf8(statement.name) &&
+                      std::all_of(statement.path.begin(), statement.path.end(), is_utf8),
+                    UserError(statement.place() + "the name of this " +
+                              (statement.is_section ? "subsection" : "parameter") +
+                              " has bytes that are not UTF-8 text."));
+
       // Put what the file says where declare_and_read() finds it...
       for (const Statement &statement : statements)
         if (!statement.is_section)

@@ -81,6 +81,8 @@ main()
   try_to_parse("subsection Dimension\nend\n");
   try_to_parse("set Structure = 3\n");
   try_to_parse("set Dimension = 3\nset Time step = \xb5\n");
+  try_to_parse("set \xb5 = 3\n");
+  try_to_parse("subsection \xb5\nend\n");
   try
     {
       ParameterHandler prm;
