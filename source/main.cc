@@ -195,7 +195,8 @@ main(int argc, char **argv)
     std::this_thread::sleep_for(
       std::chrono::milliseconds(2000 + 300 * std::min(rank - 1, 20u)));
   std::cout.flush();
-  std::cerr << "\nmitre: " << message << std::endl;
+  // in one piece, as mpirun puts its own messages between pieces
+  std::cerr << "\nmitre: " + message + "\n" << std::flush;
   if (ranks > 1)
     MPI_Abort(MPI_COMM_WORLD, 1);
   return 1;

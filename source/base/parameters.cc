@@ -237,23 +237,6 @@ namespace mitre::base
     }
 
 
-    // The names in deal.II's tree of parameters have all characters but letters and
-    // digits replaced by _ and two hexadecimal digits.
-    std::string demangle(const std::string &name)
-    {
-      std::string text;
-      for (unsigned int i = 0; i < name.size(); ++i)
-        if (name[i] == '_' && i + 2 < name.size())
-          {
-            text += static_cast<char>(std::stoi(name.substr(i + 1, 2), nullptr, 16));
-            i += 2;
-          }
-        else
-          text += name[i];
-      return text;
-    }
-
-
     bool is_parameter(const ptree &node)
     {
       return node.get_optional<std::string>("value").has_value();
@@ -281,7 +264,7 @@ namespace mitre::base
     const ptree *find_child(const ptree &node, const std::string &name)
     {
       for (const auto &child : node)
-        if (demangle(child.first) == name)
+        if (child.first == name)
           return &child.second;
       return nullptr;
     }
@@ -293,7 +276,7 @@ namespace mitre::base
       std::vector<std::string> names;
       for (const auto &child : node)
         if (predicate(child.second))
-          names.push_back(demangle(child.first));
+          names.push_back(child.first);
       return names;
     }
 

@@ -81,6 +81,15 @@ main()
   try_to_parse("subsection Dimension\nend\n");
   try_to_parse("set Structure = 3\n");
   try_to_parse("set Dimension = 3\nset Time step = \xb5\n");
+  // underscores do not stand for other characters
+  try_to_parse("subsection Structure\n"
+               "  set Parts = left_of, a_be\n"
+               "  subsection Part left_of\n"
+               "    set Kernl = IB_3\n"
+               "  end\n"
+               "  subsection Part a_b\n"
+               "  end\n"
+               "end\n");
   try_to_parse("set \xb5 = 3\n");
   try_to_parse("subsection \xb5\nend\n");
   try
