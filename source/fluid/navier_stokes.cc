@@ -438,6 +438,17 @@ namespace mitre::fluid
   }
 
 
+  template <int dim>
+  unsigned int NavierStokes<dim>::project(VectorType &field, const double tolerance)
+  {
+    velocity_space->zero_fixed_faces(field);
+    velocity_space->synchronize(field);
+    stokes_operators->apply_divergence(p_new, field);
+    const double size = p_new.l2_norm();
+    return size > 0. ? stokes_solver->project(field, tolerance * size) : 0;
+  }
+
+
   template class NavierStokes<2>;
   template class NavierStokes<3>;
 } // namespace mitre::fluid

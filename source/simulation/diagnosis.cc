@@ -33,6 +33,44 @@ namespace mitre::simulation
     }
 
 
+    /**
+     * Times between @p start and @p end [s] at which some material of @p body is
+     * stiffest: those of the largest of a hundred values of its time factor. A factor
+     * that does not change says nothing; if there is no other, it is the start.
+     */
+    template <int dim>
+    std::vector<double>
+    stiffest_times(const structure::Body<dim> &body, const double start, const double end)
+    {
+      std::vector<double> times;
+      if (const auto *solid =
+            dynamic_cast<const structure::FiniteElementBody<dim> *>(&body))
+        for (const structure::Material<dim> &material : solid->materials())
+          {
+            double smallest = std::numeric_limits<double>::max(), largest = -smallest;
+            double stiffest = start;
+            for (unsigned int i = 0; i < 100; ++i)
+              {
+                const double t     = start + (end - start) * i / 99.;
+                const double value = material.time_factor.value(t);
+                smallest           = std::min(smallest, value);
+                if (value > largest)
+                  {
+                    largest  = value;
+                    stiffest = t;
+                  }
+              }
+            if (largest > smallest)
+              times.push_back(stiffest);
+          }
+      if (times.empty())
+        times.push_back(start);
+      std::sort(times.begin(), times.end());
+      times.erase(std::unique(times.begin(), times.end()), times.end());
+      return times;
+    }
+
+
     /// "2 h 13 min"
     std::string duration(const double seconds)
     {
@@ -91,7 +129,8 @@ namespace mitre::simulation
 
 
   template <int dim>
-  structure::StableTimeStep Simulation<dim>::estimate_fibre_step(const unsigned int part)
+  structure::StableTimeStep Simulation<dim>::estimate_stable_step(const unsigned int part,
+                                                                  const double t)
   {
     grid::VectorType spread;
     fluid->operators().initialize_velocity(spread);
@@ -108,11 +147,12 @@ namespace mitre::simulation
     return structure::estimate_stable_time_step(
       *parts[part].body,
       parts[part].X,
-      current_time,
+      t,
       fluid_parameters.density,
       [&](const structure::VectorType &density, structure::VectorType &acceleration) {
         densities[part] = density;
         fe_coupling->spread(density_pointers, spread);
+        fluid->project(spread, 1e-4);
         fe_coupling->interpolate(spread, velocity_pointers);
         acceleration = velocities[part];
       });
@@ -162,31 +202,23 @@ namespace mitre::simulation
     out << "  longest stable steps, for a \"Time step\" of " << largest_time_step
         << " s:\n";
     for (unsigned int i = 0; i < parts.size(); ++i)
-      if (parts[i].body->mesh().shape == structure::ElementShape::segment)
-        {
-          const structure::StableTimeStep estimate = estimate_fibre_step(i);
-          if (!estimate.limited_by.empty())
-            limits.push_back(
-              {"fibre part " + estimate.part + " (" + estimate.limited_by + ")",
-               estimate.time_step,
-               "a smaller stiffness of the part"});
-        }
+      if (!parts[i].body->is_rigid())
+        for (const double t : stiffest_times(*parts[i].body, start_time, end_time))
+          {
+            const structure::StableTimeStep estimate = estimate_stable_step(i, t);
+            if (!estimate.limited_by.empty())
+              {
+                std::ostringstream cause;
+                cause << "part " << estimate.part << " (" << estimate.limited_by;
+                if (t > start_time)
+                  cause << " at t = " << t << " s";
+                cause << ")";
+                limits.push_back(
+                  {cause.str(), estimate.time_step, "a smaller stiffness of the part"});
+              }
+          }
     check_step_limits(limits, largest_time_step, findings, out);
-    if (std::any_of(parts.begin(), parts.end(), [](const Part &part) {
-          return part.body->mesh().shape != structure::ElementShape::segment;
-        }))
-      {
-        out
-          << "    elastic forces, if tissue moved without the fluid around it (with it, "
-             "several times as long where elements are as fine as the cells):\n";
-        for (const Part &part : parts)
-          if (part.body->mesh().shape != structure::ElementShape::segment)
-            out << "      part " << part.body->name() << ": "
-                << structure::describe(structure::estimate_stable_time_step(
-                     *part.body, part.X, current_time, fluid_parameters.density))
-                << "\n";
-      }
-    else if (parts.empty())
+    if (parts.empty())
       out << "    no explicit forces\n";
 
     // Step 3: two steps on trial. The second is like those that follow.

@@ -6,7 +6,10 @@
 // numbers, 1e-6 of the largest value); only the velocity near the edges of a box is not,
 // for walls are not known beyond their ends. The cells of the part are in
 // VTK's order, in which they have a positive volume; they add up to the cube's, 1.5 times
-// the reference volume.
+// the reference volume. All fields of stress and strain are there, with their units, and
+// are those of the elements; in the plain material under F = diag(2, 3/4 (, 1)), C1 = 2
+// and kappa = 7, sigma = (2 C1 (F F^T - I) + kappa ln J I)/J = diag(9.892170, 0.725504
+// (, 1.892170)).
 
 #include <filesystem>
 #include <iostream>
@@ -108,8 +111,50 @@ check_fluid(const Case<dim> &flow, const std::string &folder)
             << "\nlevel: " << structure_tests::below(worst_level, 1e-10) << std::endl;
 }
 
+/// Whether the file has the values of each quantity of stress and strain.
+template <int dim>
 void
-check_part(const int dim, const std::string &folder, const std::string &name)
+check_stress(const vtu::File &file, const std::vector<std::vector<double>> &wanted)
+{
+  double worst        = 0.;
+  unsigned int number = 0;
+  for (const auto &quantity : structure::stress_quantities<dim>())
+    {
+      const auto field = file.arrays.find(
+        quantity.name + (quantity.unit.empty() ? "" : " [" + quantity.unit + "]"));
+      const std::vector<double> &values = wanted[number++];
+      if (field == file.arrays.end() || field->second.size() != values.size() ||
+          values.size() != file.n_cells * quantity.n_components)
+        {
+          std::cout << "FAILED: " << quantity.name << std::endl;
+          continue;
+        }
+      for (std::size_t i = 0; i < values.size(); ++i)
+        worst = std::max(worst,
+                         std::abs(field->second[i] - values[i]) /
+                           std::max(1., std::abs(values[i])));
+    }
+  std::cout << number << " stresses and strains: " << structure_tests::below(worst, 1e-6)
+            << std::endl;
+
+  const std::array<double, 3> stress{{9.892170, 0.725504, 1.892170}};
+  worst = 0.;
+  for (unsigned int cell = 0; cell < file.n_cells; ++cell)
+    if (file.arrays.at("material id")[cell] == 2.)
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = 0; j < dim; ++j)
+          worst = std::max(
+            worst,
+            std::abs(file.arrays.at("Cauchy stress [dyn/cm^2]")[9 * cell + 3 * i + j] -
+                     (i == j ? stress[i] : 0.)));
+  std::cout << "Cauchy stress: " << structure_tests::below(worst, 1e-5) << std::endl;
+}
+
+template <int dim>
+void
+check_part(const std::string &folder,
+           const std::string &name,
+           const std::vector<std::vector<double>> &stress)
 {
   const std::vector<std::string> frames =
     vtu::attributes(vtu::read_text(folder + "/" + name + ".pvd"), "file");
@@ -130,7 +175,7 @@ check_part(const int dim, const std::string &folder, const std::string &name)
   // s_0 = (X_0 - 0.5) / 2 and so on.
   const std::array<double, 3> stretch{{2., 0.75, 1.}};
   for (unsigned int i = 0; i < file.n_points; ++i)
-    for (int d = 0; d < 3; ++d)
+    for (unsigned int d = 0; d < 3; ++d)
       {
         const double X         = x[3 * i + d];
         const double reference = d < dim ? (X - 0.5) / stretch[d] : 0.;
@@ -144,6 +189,7 @@ check_part(const int dim, const std::string &folder, const std::string &name)
             << (smallest > 0. ? ", all positive" : ", FAILED: some not positive")
             << "\nJ: " << structure_tests::below(worst_J, 1e-5)
             << "\nfields: " << structure_tests::below(worst_place, 1e-5) << std::endl;
+  check_stress<dim>(file, stress);
 }
 
 template <int dim>
@@ -164,6 +210,9 @@ test()
       });
 
   structure::BodyParameters<dim> parameters = structure_tests::make_parameters<dim>();
+  for (const auto &quantity : structure::stress_quantities<dim>())
+    parameters.element_fields.push_back(quantity.name);
+  std::vector<std::vector<std::vector<double>>> stresses;
   for (const auto shape :
        {structure::ElementShape::simplex, structure::ElementShape::hypercube})
     {
@@ -180,14 +229,19 @@ test()
       body.from_mesh_order(values, X);
       U.equ(3., X);
       writer.write_part(body, X, U, 0.);
+      stresses.push_back(body.compute_element_fields(parameters.element_fields, X, 0.));
     }
 
   if (prints)
     {
       check_fluid(flow, run + "/output");
-      for (const auto shape :
-           {structure::ElementShape::simplex, structure::ElementShape::hypercube})
-        check_part(dim, run + "/output", structure_tests::shape_name(dim, shape));
+      check_part<dim>(run + "/output",
+                      structure_tests::shape_name(dim, structure::ElementShape::simplex),
+                      stresses[0]);
+      check_part<dim>(
+        run + "/output",
+        structure_tests::shape_name(dim, structure::ElementShape::hypercube),
+        stresses[1]);
       for (const auto &entry : std::filesystem::directory_iterator(run + "/output"))
         if (entry.path().extension() == ".tmp")
           std::cout << "FAILED: " << entry.path() << " is left" << std::endl;

@@ -110,11 +110,11 @@ def area(x):
 
 text = run_ring(["--validate"], end="1", dt="2.5e-3", steps="400")
 check("ring: --validate", "%d nodes, %d springs, 0 beams" % (N, N) in text)
-found = re.search(r"fibre part ring \(springs\): ([0-9.e+-]+) s", text)
+found = re.search(r"part ring \(springs\): ([0-9.e+-]+) s", text)
 stable = float(found.group(1))
 check("ring: longest stable step", 2.5e-3 < stable < 3e-2, stable)
 text = run_ring(["--validate"], 1, end="1", dt="%g" % (2.1 * stable), steps="400")
-check("ring: twice as long", "but the fibre part ring (springs) allows about" in text)
+check("ring: twice as long", "but the part ring (springs) allows about" in text)
 
 run_ring(end="1.2", dt="%g" % (1.2 / math.ceil(1.2 / (0.5 * stable))),
          steps="%d" % math.ceil(1.2 / (0.5 * stable)))

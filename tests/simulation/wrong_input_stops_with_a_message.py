@@ -520,7 +520,7 @@ errors = [
          dict(strand(spring="2\n0 1 1e6 0.03\n1 2 1e6 0.03\n"),
               arguments=["--validate", "run.prm"]),
          ["run.prm cannot work", "\"Time / Time step\" is 0.001",
-          "the fibre part strand (springs) allows about",
+          "the part strand (springs) allows about",
           "a smaller stiffness of the part"]),
         ("a flow too fast for the time step",
          dict(change=[("velocity x = 0", "velocity x = 400*cos(2*pi*y)")]),

@@ -90,6 +90,11 @@ namespace mitre::fluid
     bool regrid(const std::function<int(const dealii::BoundingBox<dim> &)> &wanted_level,
                 const double time);
 
+    /// Makes @p field, with a value at each velocity, divergence-free and zero on the
+    /// faces whose velocity is given. Returns the number of iterations.
+    /// @param tolerance for the norm of the divergence, relative to that before
+    unsigned int project(grid::VectorType &field, const double tolerance);
+
     /// u^n [cm/s], consistent.
     const grid::VectorType &velocity() const
     {

@@ -178,8 +178,10 @@ namespace mitre::simulation
     /// fastest, ...". Collective.
     std::string describe_fastest_flow() const;
 
-    /// The stable step of a part of fibres, whose nodes move with the fluid about them.
-    structure::StableTimeStep estimate_fibre_step(const unsigned int part);
+    /// The stable step of a part at rest, whose nodes move with the fluid about them and
+    /// whose materials are as stiff as at time @p t [s].
+    structure::StableTimeStep estimate_stable_step(const unsigned int part,
+                                                   const double t);
 
     bool run_to_end();
     void start();

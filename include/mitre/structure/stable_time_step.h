@@ -44,13 +44,14 @@ namespace mitre::structure
    * where c is the largest rate of damping over @f$\rho@f$: the bound of central
    * differences with lagging damping.
    *
-   * Fibres have no mass of their own; there @p mobility takes the place of 1/M: the force
-   * density spread to the grid, and interpolated.
+   * With @p mobility the fluid moves it instead: the force density spread to the grid,
+   * made divergence-free and interpolated. That allows steps several times as long, as
+   * changes of volume and motions that the grid does not resolve move nothing. Fibres
+   * have no mass of their own and need it.
    *
-   * An estimate: motions that the grid does not resolve move more fluid, so that a mesh
-   * that is finer than the grid may take longer steps; fibres stiffen as they are
-   * stretched, and slack ones count half, so that a part that will be loaded may need
-   * shorter ones. Collective.
+   * An estimate: materials and fibres stiffen as they are stretched, and slack fibres count
+   * half, so that a part that will be loaded may need shorter steps. Viscosity changes
+   * little, as Crank-Nicolson leaves this bound where it is. Collective.
    *
    * @param density of the fluid [g/cm^3]
    * @param mobility needed for fibres; if there is none, the body moves with the fluid
