@@ -12,7 +12,8 @@ set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
-build_packages=(cmake ninja-build g++ mold libdeal.ii-dev openmpi-bin libnlopt-cxx-dev)
+build_packages=(cmake ninja-build g++ mold libdeal.ii-dev openmpi-bin libnlopt-cxx-dev
+                libjemalloc-dev)
 test_packages=(numdiff perl git python3 clang-format-14)
 report_packages=(python3 python3-vtk9 python3-matplotlib python3-numpy xvfb)
 
