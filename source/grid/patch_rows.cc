@@ -170,9 +170,11 @@ namespace mitre::grid
           }
         entries.emplace_back(leaf, unknown - first, weight);
       }
-    std::stable_sort(entries.begin(), entries.end(), [](const auto &a, const auto &b) {
+    const auto by_leaf = [](const auto &a, const auto &b) {
       return std::get<0>(a) < std::get<0>(b);
-    });
+    };
+    if (!std::is_sorted(entries.begin(), entries.end(), by_leaf))
+      std::stable_sort(entries.begin(), entries.end(), by_leaf);
     for (std::size_t k = 0; k < entries.size(); ++k)
       {
         const auto &[entry_leaf, number, weight] = entries[k];
@@ -195,7 +197,24 @@ namespace mitre::grid
     const bool any = std::any_of(rows->sets.begin(),
                                  rows->sets.end(),
                                  [](const auto &set) { return set.n_rows() > 0; });
-    return any ? rows : nullptr;
+    if (!any)
+      return nullptr;
+    // they may be kept for the rest of the run
+    for (auto &set : rows->sets)
+      {
+        const auto shrink = [](auto &...vectors) { (vectors.shrink_to_fit(), ...); };
+        shrink(set.destinations,
+               set.starts,
+               set.leaves,
+               set.entry_starts,
+               set.entries,
+               set.weights,
+               set.auxiliary_starts,
+               set.auxiliary_columns,
+               set.auxiliary_weights,
+               set.boundary_terms);
+      }
+    return rows;
   }
 
 
@@ -388,7 +407,6 @@ namespace mitre::grid
     for (auto &entry : known)
       entry.second.in_use = false;
     configurations.assign(grid.n_owned_patches(), {});
-    std::size_t n_used = 0;
     std::string key;
     for (unsigned int p = 0; p < grid.n_owned_patches(); ++p)
       {
@@ -460,14 +478,20 @@ namespace mitre::grid
               else if (any_coarser)
                 key.push_back(static_cast<char>(patch.index[d] & 1));
             Configuration &configuration = known[key];
-            n_used += configuration.in_use ? 0 : 1;
             configuration.in_use         = true;
             configurations[p][direction] = &configuration;
           }
       }
 
-    // what has not been met for long is forgotten
-    if (known.size() > 4 * n_used + 10000)
+    // what is not there any more is kept, as it may come back, in twice the memory of
+    // what is
+    std::size_t memory_used = 0, memory_unused = 0;
+    for (const auto &entry : known)
+      for (const auto &rows : entry.second.rows)
+        if (rows.second != nullptr)
+          (entry.second.in_use ? memory_used : memory_unused) +=
+            rows.second->memory_consumption();
+    if (memory_unused > 2 * memory_used)
       for (auto entry = known.begin(); entry != known.end();)
         entry = entry->second.in_use ? std::next(entry) : known.erase(entry);
   }

@@ -188,6 +188,9 @@ namespace
           regrids.push_back(Utilities::MPI::max(seconds_since(start), MPI_COMM_WORLD));
         }
 
+    const double memory_after =
+      Utilities::MPI::sum(resident_memory() - memory_before, MPI_COMM_WORLD);
+
     std::sort(times.begin(), times.end());
     std::sort(iterations.begin(), iterations.end());
     const double median = times[times.size() / 2];
@@ -227,6 +230,9 @@ namespace
           std::printf("         %u patches on a rank, %u of them beside another level\n",
                       n[0],
                       n[1]);
+        if (!regrids.empty())
+          std::printf("         %.2f KiB a cell after all changes of the grid\n",
+                      memory_after / 1024. / cells);
         for (const double seconds : regrids)
           std::printf("         change of the grid %.3f s, %.1f steps\n",
                       seconds,
