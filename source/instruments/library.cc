@@ -7,6 +7,7 @@
 #include <mitre/instruments/orifice_area.h>
 #include <mitre/instruments/part_extent.h>
 #include <mitre/instruments/part_force.h>
+#include <mitre/instruments/part_point.h>
 #include <mitre/instruments/part_volume.h>
 #include <mitre/instruments/pressure_difference.h>
 #include <mitre/instruments/pressure_point.h>
@@ -32,6 +33,8 @@ namespace mitre::instruments
         "part force", "force of the fluid on a part that is held: drag and lift");
       instruments.template add<PartExtent<dim>>(
         "part extent", "smallest and largest coordinate of a part along an axis");
+      instruments.template add<PartPoint<dim>>(
+        "part point", "displacement and velocity of a material point of a part");
       instruments.template add<PartVolume<dim>>(
         "part volume",
         "deformed over reference volume of a part, smallest and largest J");

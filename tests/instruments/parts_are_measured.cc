@@ -6,6 +6,7 @@
 // kinetic energy of a uniform stream in a volume of 2 is rho |u|^2 with rho = 1.5. A
 // tether holds the first part: with the mean displacement d and the mean velocity v (here
 // that of the vector X) the fluid's force on it is kappa d + eta v, kappa = 30, eta = 4.
+// The node at a corner of the other part is followed.
 
 #include <mitre/structure/library.h>
 
@@ -76,7 +77,7 @@ test()
     {{bodies[0].get(), &X[0], &X[0]}, {bodies[1].get(), &X[1], &X[1]}}};
 
   const std::string text =
-    "set Instruments = whole, half, top, volume, tube, energy, force\n"
+    "set Instruments = whole, half, top, volume, tube, energy, force, corner\n"
     "subsection Instrument whole\n"
     "  set Type = part extent\n"
     "  set Part = leaflets\n"
@@ -107,7 +108,12 @@ test()
     "  set Type            = part force\n"
     "  set Part            = leaflets\n"
     "  set Reference force = 10\n"
-    "end\n";
+    "end\n"
+    "subsection Instrument corner\n"
+    "  set Type  = part point\n"
+    "  set Part  = tube\n"
+    "  set Point = " +
+    std::string(dim == 2 ? "0.99, 1\n" : "0.99, 1, 1\n") + "end\n";
   instruments::Instruments<dim> instruments;
   parse(instruments, text);
   const std::vector<std::string> columns = instruments.columns();
@@ -134,6 +140,11 @@ test()
   expected.insert(expected.end(), force.begin(), force.end());
   for (const double component : force)
     expected.push_back(component / 10.);
+  // X = (2.8, 1.75 (, 1)) for s = (1, 1 (, 1)); the velocity is X
+  for (const double subtracted : {1., 0.})
+    for (const double x : {2.8, 1.75, 1.})
+      if (dim == 3 || x != 1.)
+        expected.push_back(x - subtracted);
   check("columns", columns.size(), expected.size(), 0);
   for (unsigned int i = 0; i < expected.size(); ++i)
     check(columns[i], values[i], expected[i], 1e-9);
@@ -153,6 +164,14 @@ test()
         "  set Part = tube\n"
         "  set Material ids = 7\n"
         "end\n");
+  expect_error([&]() { wrong.measure(observation); });
+  parse(wrong,
+        "set Instruments = tip\n"
+        "subsection Instrument tip\n"
+        "  set Type  = part point\n"
+        "  set Part  = tube\n"
+        "  set Point = " +
+          std::string(dim == 2 ? "1, 1.2\n" : "1, 1, 1.2\n") + "end\n");
   expect_error([&]() { wrong.measure(observation); });
   parse(wrong,
         "set Instruments = drag\n"
