@@ -3,6 +3,9 @@
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 
 #include <cmath>
+#include <numeric>
+#include <type_traits>
+#include <vector>
 
 #include <mitre/fluid/pressure_multigrid.h>
 
@@ -22,18 +25,37 @@ namespace mitre::fluid
                                        : Number(1.);
     }
 
-    /// An entry of the coarsest level's matrix, as ranks send it to each other.
+    /// An entry of the coarsest level's matrix.
     struct Entry
     {
       types::global_dof_index row, column;
       double value;
-
-      template <class Archive>
-      void serialize(Archive &archive, const unsigned int)
-      {
-        archive &row &column &value;
-      }
     };
+
+
+    /// The entries of all ranks, byte by byte: Utilities::MPI::all_gather() compresses
+    /// them, which takes longer than to factorize the matrix.
+    std::vector<Entry> gather_entries(const std::vector<Entry> &own,
+                                      const MPI_Comm communicator)
+    {
+      static_assert(std::is_trivially_copyable<Entry>::value, "sent as bytes");
+      std::vector<int> counts = Utilities::MPI::all_gather(
+                         communicator, static_cast<int>(own.size() * sizeof(Entry))),
+                       starts(counts.size(), 0);
+      std::partial_sum(counts.begin(), counts.end() - 1, starts.begin() + 1);
+      std::vector<Entry> all((starts.back() + counts.back()) / sizeof(Entry));
+      const int ierr = MPI_Allgatherv(own.data(),
+                                      own.size() * sizeof(Entry),
+                                      MPI_BYTE,
+                                      all.data(),
+                                      counts.data(),
+                                      starts.data(),
+                                      MPI_BYTE,
+                                      communicator);
+      AssertThrowMPI(ierr);
+      return all;
+    }
+
 
     /// Strides of a padded array of (m+2)^dim entries.
     struct Strides
@@ -230,17 +252,14 @@ namespace mitre::fluid
       }
 
     const types::global_dof_index size = patch_grid.n_global_patches();
-    const std::vector<std::vector<Entry>> all =
-      Utilities::MPI::all_gather(patch_grid.communicator(), own);
+    const std::vector<Entry> all       = gather_entries(own, patch_grid.communicator());
     DynamicSparsityPattern dynamic(size);
-    for (const auto &part : all)
-      for (const Entry &entry : part)
-        dynamic.add(entry.row, entry.column);
+    for (const Entry &entry : all)
+      dynamic.add(entry.row, entry.column);
     coarse_sparsity.copy_from(dynamic);
     coarse_matrix.reinit(coarse_sparsity);
-    for (const auto &part : all)
-      for (const Entry &entry : part)
-        coarse_matrix.add(entry.row, entry.column, entry.value);
+    for (const Entry &entry : all)
+      coarse_matrix.add(entry.row, entry.column, entry.value);
     // A single closed patch has a diagonal of 0.
     if (singular)
       coarse_matrix.diag_element(0) = size == 1 ? 1. : 2. * coarse_matrix.diag_element(0);

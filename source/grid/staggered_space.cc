@@ -681,12 +681,14 @@ namespace mitre::grid
         for (unsigned int d = 0; d < dim; ++d)
           volume *= patch_grid.patch(p).h[d];
         for (unsigned int c = 0; c < dim; ++c)
-          for (unsigned int i = 0; i < dofs_per_component; ++i)
-            {
-              const unsigned int plane = (i / stride(c, c)) % (n + 1);
-              master_volumes.local_element(first_dof(p, c) + i) =
-                (plane == 0 || plane == n) ? 0.5 * volume : volume;
-            }
+          {
+            double *values = master_volumes.begin() + first_dof(p, c);
+            std::fill_n(values, dofs_per_component, volume);
+            const unsigned int block = stride(c, c), size = block * (n + 1);
+            for (unsigned int i = 0; i < dofs_per_component; i += size)
+              for (const unsigned int plane : {0u, n})
+                std::fill_n(values + i + plane * block, block, 0.5 * volume);
+          }
       }
     collect(master_volumes);
     for (unsigned int i = 0; i < free_inverse_volumes.locally_owned_size(); ++i)
