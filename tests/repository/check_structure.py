@@ -39,6 +39,7 @@ PROGRAMS = {
     "main.cc": ["base", "simulation"],
     "prepare_geometry.cc": ["base", "io", "geometry"],
     "biaxial.cc": ["base", "biaxial"],
+    "allocator.cc": [],  # a part of programs, see there
 }
 
 TOP_LEVEL = ["CMakeLists.txt", "LICENSE", "README.md", "doc", "include", "meshes",

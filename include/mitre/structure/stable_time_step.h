@@ -49,9 +49,9 @@ namespace mitre::structure
    * changes of volume and motions that the grid does not resolve move nothing. Fibres
    * have no mass of their own and need it.
    *
-   * An estimate: materials and fibres stiffen as they are stretched, and slack fibres count
-   * half, so that a part that will be loaded may need shorter steps. Viscosity changes
-   * little, as Crank-Nicolson leaves this bound where it is. Collective.
+   * An estimate: materials and fibres stiffen as they are stretched, and slack fibres
+   * count half, so that a part that will be loaded may need shorter steps. Viscosity
+   * changes little, as Crank-Nicolson leaves this bound where it is. Collective.
    *
    * @param density of the fluid [g/cm^3]
    * @param mobility needed for fibres; if there is none, the body moves with the fluid
