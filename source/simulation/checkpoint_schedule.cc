@@ -112,7 +112,6 @@ namespace mitre::simulation
 
 
   CheckpointSchedule::Decision CheckpointSchedule::decide(const unsigned int step,
-                                                          const bool is_last,
                                                           const MPI_Comm communicator)
   {
     const double now = wall_clock();
@@ -144,8 +143,7 @@ namespace mitre::simulation
     Decision decision;
     decision.stop  = wishes[1] != 0 || wishes[3] != 0;
     decision.write = decision.stop || wishes[0] != 0 || wishes[2] != 0 ||
-                     (step_period > 0 && step % step_period == 0) ||
-                     (is_last && (step_period > 0 || wall_period > 0.));
+                     (step_period > 0 && step % step_period == 0);
     if (wishes[1] != 0)
       decision.reason = "on signal " + std::to_string(wishes[1]) + " (" +
                         std::string(strsignal(wishes[1])) + ")";

@@ -1024,7 +1024,7 @@ namespace mitre::simulation
       output_folder + "/statistics.csv",
       statistics_columns(),
       communicator,
-      continues_output ? std::optional<double>(last_measured) : std::optional<double>());
+      continues_output ? std::optional<double>(current_time) : std::optional<double>());
   }
 
 
@@ -1094,20 +1094,6 @@ namespace mitre::simulation
         steps_since      = 0;
       }
 
-    const auto write_line = [&]() {
-      const double now = wall_clock();
-      measure(iterations_since, (now - statistics_clock) / steps_since);
-      statistics_clock = now;
-      iterations_since = 0;
-      steps_since      = 0;
-    };
-    const auto write_frame = [&]() {
-      const double begin = wall_clock();
-      write_fields();
-      ++n_outputs;
-      statistics_clock += wall_clock() - begin;
-    };
-
     base::Progress progress(std::cout, current_time, end_time, "s");
     while (!finished())
       {
@@ -1120,18 +1106,23 @@ namespace mitre::simulation
         iterations_since = std::max(iterations_since, last_iterations);
         ++steps_since;
 
-        // What only the end of the run asks for comes after the checkpoint, which a run
-        // with a later end goes on from. Variable steps end with one that is cut short,
-        // which such a run would not have.
-        const bool last        = finished();
-        const bool line_is_due = step_number % statistics_interval == 0;
-        const bool frame_is_due =
-          output_interval > 0. &&
-          current_time >= (n_outputs - 1e-6) * output_interval + start_time;
-        if (line_is_due)
-          write_line();
-        if (frame_is_due)
-          write_frame();
+        if (step_number % statistics_interval == 0 || finished())
+          {
+            const double now = wall_clock();
+            measure(iterations_since, (now - statistics_clock) / steps_since);
+            statistics_clock = now;
+            iterations_since = 0;
+            steps_since      = 0;
+          }
+        if (output_interval > 0. &&
+            (current_time >= (n_outputs - 1e-6) * output_interval + start_time ||
+             finished()))
+          {
+            const double begin = wall_clock();
+            write_fields();
+            ++n_outputs;
+            statistics_clock += wall_clock() - begin;
+          }
         if (root)
           {
             std::ostringstream note;
@@ -1142,7 +1133,7 @@ namespace mitre::simulation
           }
 
         const CheckpointSchedule::Decision decision =
-          schedule.decide(step_number, last && wanted_courant_number == 0., communicator);
+          schedule.decide(step_number, communicator);
         if (decision.write)
           {
             const double begin = wall_clock();
@@ -1159,11 +1150,7 @@ namespace mitre::simulation
                           << " s" << std::setprecision(6) << std::endl;
               }
           }
-        if (last && !line_is_due)
-          write_line();
-        if (last && !frame_is_due && output_interval > 0.)
-          write_frame();
-        if (decision.stop && !last)
+        if (decision.stop && !finished())
           {
             statistics->flush();
             if (root)

@@ -44,10 +44,9 @@ namespace mitre::simulation
       std::string reason;
     };
 
-    /// What to do after step @p step, the same on all ranks. With @p is_last there is a
-    /// checkpoint if there are any at all. Collective: one reduction of four integers.
-    Decision
-    decide(const unsigned int step, const bool is_last, const MPI_Comm communicator);
+    /// What to do after step @p step, the same on all ranks. Collective: one reduction of
+    /// four integers.
+    Decision decide(const unsigned int step, const MPI_Comm communicator);
 
     /// Says that a checkpoint has been written, and how long that took [s].
     void written(const double seconds);
