@@ -1,8 +1,8 @@
 // Seconds a time step of the fluid alone, by phase: ABC flow, periodic, viscosity 0.01,
 // time step 2.5e-5 s, PPM, relative residual 1e-6 from extrapolated starts; 64^3 and
 // 128 x 64 x 64 cells on one level, 64^3 with finer patches in an eighth of the box
-// ("adaptive"), and 64 x 32 x 32 with finer patches across the middle three eighths, as
-// about a heart valve ("valve": 237,568 cells, as many as mitral_valve.prm has).
+// ("adaptive"), and 64 x 32 x 32 with finer patches across a quarter of the length, as
+// about a heart valve ("valve", 180,224 cells).
 // In the same run, for scale: the bandwidth of a STREAM-like triad and the time of the
 // plain 7-point loop over one contiguous array of as many cells, each on all ranks at
 // once.
