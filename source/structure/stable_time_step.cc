@@ -2,7 +2,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -254,18 +253,6 @@ namespace mitre::structure
           ? find_largest_contribution(body, damping, false, damped_mode)
           : find_largest_contribution(body, stiffness, true, mode);
     return estimate;
-  }
-
-
-  std::string describe(const StableTimeStep &estimate)
-  {
-    if (estimate.limited_by.empty())
-      return "any time step, for part " + estimate.part;
-    std::ostringstream text;
-    text.precision(2);
-    text << "a time step of " << estimate.time_step << " s, limited by "
-         << estimate.limited_by << " of part " << estimate.part;
-    return text.str();
   }
 
 

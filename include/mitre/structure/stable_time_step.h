@@ -63,10 +63,6 @@ namespace mitre::structure
                                            const double t,
                                            const double density,
                                            const Mobility &mobility = {});
-
-
-  /// "a time step of 2.1e-05 s, limited by material chordae of part chordae"
-  std::string describe(const StableTimeStep &estimate);
 } // namespace mitre::structure
 
 #endif
